@@ -1,0 +1,138 @@
+//! What can be wrong with a scene, and where.
+
+use core::fmt;
+use std::path::{Path, PathBuf};
+use std::string::String;
+use std::vec::Vec;
+
+/// A place in a file.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Location {
+    /// The file; empty where nothing came from a file.
+    pub file: PathBuf,
+    /// Line, counted from 1.
+    pub line: Option<u32>,
+    /// Column in characters, counted from 1.
+    pub column: Option<u32>,
+}
+
+impl Location {
+    /// A whole file.
+    pub fn file(file: impl AsRef<Path>) -> Self {
+        Self { file: file.as_ref().to_path_buf(), line: None, column: None }
+    }
+
+    /// A line of a file.
+    pub fn line(file: impl AsRef<Path>, line: u32) -> Self {
+        Self { line: Some(line), ..Self::file(file) }
+    }
+}
+
+impl fmt::Display for Location {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", self.file.display())?;
+        if let Some(line) = self.line {
+            write!(f, ":{line}")?;
+        }
+        if let Some(column) = self.column {
+            write!(f, ":{column}")?;
+        }
+        Ok(())
+    }
+}
+
+/// What kind of failure an error is; the command line turns it into an exit code.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ErrorKind {
+    /// The content is wrong: malformed, out of range, unsupported.
+    Scene,
+    /// A file cannot be read.
+    Io,
+    /// The content asks for more memory or work than is allowed.
+    Resource,
+}
+
+/// Why a scene could not be loaded: what, where, and how to mend it.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub struct SceneError {
+    /// What kind of failure.
+    pub kind: ErrorKind,
+    /// Where.
+    pub location: Location,
+    /// What is wrong, in one sentence without a full stop.
+    pub message: String,
+    /// How to mend it, in one sentence without a full stop.
+    pub help: Option<String>,
+}
+
+impl SceneError {
+    /// The content of a file is wrong.
+    pub fn scene(location: Location, message: impl Into<String>) -> Self {
+        Self { kind: ErrorKind::Scene, location, message: message.into(), help: None }
+    }
+
+    /// A file cannot be read.
+    pub fn io(path: impl AsRef<Path>, error: &std::io::Error) -> Self {
+        Self {
+            kind: ErrorKind::Io,
+            location: Location::file(path),
+            message: std::format!("cannot read: {error}"),
+            help: None,
+        }
+    }
+
+    /// The content asks for too much.
+    pub fn resource(location: Location, message: impl Into<String>) -> Self {
+        Self { kind: ErrorKind::Resource, location, message: message.into(), help: None }
+    }
+
+    /// The same error with advice on how to mend it.
+    #[must_use]
+    pub fn help(mut self, help: impl Into<String>) -> Self {
+        self.help = Some(help.into());
+        self
+    }
+}
+
+impl fmt::Display for SceneError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        describe(f, &self.location, &self.message)?;
+        if let Some(help) = &self.help {
+            write!(f, "; {help}")?;
+        }
+        Ok(())
+    }
+}
+
+/// Something suspicious that does not stop a scene from loading.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Warning {
+    /// Where.
+    pub location: Location,
+    /// What, in one sentence without a full stop.
+    pub message: String,
+}
+
+impl Warning {
+    /// A warning about a place.
+    pub fn new(location: Location, message: impl Into<String>) -> Self {
+        Self { location, message: message.into() }
+    }
+}
+
+impl fmt::Display for Warning {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        describe(f, &self.location, &self.message)
+    }
+}
+
+fn describe(f: &mut fmt::Formatter<'_>, location: &Location, message: &str) -> fmt::Result {
+    if location.file.as_os_str().is_empty() {
+        write!(f, "{message}")
+    } else {
+        write!(f, "{location}: {message}")
+    }
+}
+
+/// Warnings in the order they were found.
+pub(crate) type Warnings = Vec<Warning>;

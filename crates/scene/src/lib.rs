@@ -1,0 +1,20 @@
+//! Scenes: shapes, bounding volume hierarchy, materials, lights, cameras, and the files they come from.
+#![no_std]
+#![deny(unsafe_code)]
+
+extern crate alloc;
+#[cfg(any(feature = "std", test))]
+extern crate std;
+
+pub mod geometry;
+#[cfg(feature = "std")]
+pub mod load;
+
+#[cfg(feature = "std")]
+mod error;
+
+#[cfg(feature = "std")]
+pub use error::{ErrorKind, Location, SceneError, Warning};
+
+/// Linear RGB in the renderer's precision.
+pub type Color = etendue_math::Rgb<f32>;

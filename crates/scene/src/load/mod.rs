@@ -1,0 +1,1 @@
+//! Loaders for the files a scene refers to.
