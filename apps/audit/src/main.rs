@@ -1,0 +1,3 @@
+//! The command `etendue-audit`.
+
+fn main() {}

@@ -1,0 +1,1 @@
+//! Path tracing of étendue scenes.
