@@ -6,9 +6,11 @@ extern crate alloc;
 #[cfg(any(feature = "std", test))]
 extern crate std;
 
+pub mod film;
 pub mod geometry;
 #[cfg(feature = "std")]
 pub mod load;
+pub mod texture;
 
 #[cfg(feature = "std")]
 mod error;

@@ -1,0 +1,171 @@
+//! Colours that vary over a surface.
+//!
+//! Textures live in one arena, [`Textures`], and are named by [`TextureId`]; a number or colour of
+//! a material is a texture as well, a constant one. Every stored value is finite and not negative,
+//! which is what lets the code that uses it be total.
+
+mod bitmap;
+mod checkerboard;
+mod image;
+mod uv_transform;
+
+use alloc::vec::Vec;
+
+use etendue_math::Spectrum;
+
+pub use bitmap::{Bitmap, Filter, Wrap};
+pub use checkerboard::Checkerboard;
+pub use image::{BitmapError, BitmapImage};
+pub use uv_transform::UvTransform;
+
+use crate::Color;
+
+/// Names a texture of a [`Textures`] arena.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct TextureId(pub u32);
+
+/// A colour as a function of texture coordinates.
+#[derive(Clone, Debug)]
+pub enum Texture {
+    /// The same everywhere.
+    Constant(Color),
+    /// An image.
+    Bitmap(Bitmap),
+    /// Two textures in the squares of a checkerboard.
+    Checkerboard(Checkerboard),
+}
+
+/// All textures of a scene.
+///
+/// # Examples
+/// ```
+/// use etendue_scene::{Color, texture::Textures};
+///
+/// let mut textures = Textures::default();
+/// let grey = textures.constant(Color::new(0.5, 0.5, 0.5));
+/// assert_eq!(textures.value(grey, [0.3, 0.7]), 0.5);
+/// ```
+#[derive(Clone, Debug, Default)]
+pub struct Textures {
+    entries: Vec<Entry>,
+}
+
+/// A texture and what is asked about it as a whole.
+#[derive(Clone, Debug)]
+struct Entry {
+    texture: Texture,
+    mean: Color,
+    max: Color,
+}
+
+impl Textures {
+    /// Adds a texture. It may refer to textures added before it; a reference to itself or to a
+    /// later one is black, so that look-ups always end.
+    ///
+    /// A channel of a constant that is NaN, infinite or negative is stored as 0.
+    pub fn add(&mut self, texture: Texture) -> TextureId {
+        let id = TextureId(self.entries.len() as u32);
+        let (texture, mean, max) = match texture {
+            Texture::Constant(color) => {
+                let color = color.map(|c| if c > 0.0 && c.is_finite() { c } else { 0.0 });
+                (Texture::Constant(color), color, color)
+            }
+            Texture::Bitmap(bitmap) => {
+                let (mean, max) = (bitmap.image().mean(), bitmap.image().max());
+                (Texture::Bitmap(bitmap), mean, max)
+            }
+            Texture::Checkerboard(board) => {
+                let [a, b] = [board.color0, board.color1];
+                let mean = (self.mean(a) + self.mean(b)) * 0.5;
+                let max = self.max(a).zip(self.max(b), f32::max);
+                (Texture::Checkerboard(board), mean, max)
+            }
+        };
+        self.entries.push(Entry { texture, mean, max });
+        id
+    }
+
+    /// Adds a texture that is `color` everywhere.
+    pub fn constant(&mut self, color: Color) -> TextureId {
+        self.add(Texture::Constant(color))
+    }
+
+    /// The colour at texture coordinates `uv`: finite, not negative; black for an unknown `id`.
+    ///
+    /// Coordinates that are NaN or infinite give some colour of the texture.
+    #[inline]
+    pub fn color(&self, id: TextureId, uv: [f32; 2]) -> Color {
+        match self.entries.get(id.0 as usize).map(|entry| &entry.texture) {
+            Some(&Texture::Constant(color)) => color,
+            Some(Texture::Bitmap(bitmap)) => bitmap.color(uv),
+            Some(Texture::Checkerboard(board)) => {
+                let square = board.square(uv);
+                if square < id { self.color(square, uv) } else { Color::black() }
+            }
+            None => Color::black(),
+        }
+    }
+
+    /// The luminance of the colour at `uv`; exactly `x` for a grey `(x, x, x)`.
+    #[inline]
+    pub fn value(&self, id: TextureId, uv: [f32; 2]) -> f32 {
+        let color = self.color(id, uv);
+        if color.r == color.g && color.g == color.b { color.r } else { color.luminance() }
+    }
+
+    /// The texture itself, or `None` for an unknown `id`.
+    pub fn get(&self, id: TextureId) -> Option<&Texture> {
+        self.entries.get(id.0 as usize).map(|entry| &entry.texture)
+    }
+
+    /// The mean over the unit square of the untransformed texture: over the texels of a bitmap.
+    pub fn mean(&self, id: TextureId) -> Color {
+        self.entries.get(id.0 as usize).map_or(Color::black(), |entry| entry.mean)
+    }
+
+    /// An upper bound of each channel.
+    pub fn max(&self, id: TextureId) -> Color {
+        self.entries.get(id.0 as usize).map_or(Color::black(), |entry| entry.max)
+    }
+
+    /// Whether the texture is a [`Texture::Constant`].
+    pub fn is_constant(&self, id: TextureId) -> bool {
+        matches!(self.get(id), Some(Texture::Constant(_)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_grey_constant_has_exactly_its_value_and_bad_channels_are_black() {
+        let mut textures = Textures::default();
+        let grey = textures.constant(Color::splat(0.1));
+        assert_eq!(textures.value(grey, [0.0, 0.0]), 0.1);
+        let bad = textures.constant(Color::new(f32::NAN, f32::INFINITY, -1.0));
+        assert_eq!(textures.color(bad, [0.0, 0.0]), Color::black());
+    }
+
+    #[test]
+    fn a_checkerboard_of_itself_is_black_instead_of_endless() {
+        let mut textures = Textures::default();
+        let own = TextureId(0);
+        let board = Checkerboard { color0: own, color1: TextureId(7), uv: UvTransform::IDENTITY };
+        let id = textures.add(Texture::Checkerboard(board));
+        assert_eq!(textures.color(id, [0.1, 0.1]), Color::black());
+        assert_eq!(textures.color(id, [0.6, 0.1]), Color::black());
+    }
+
+    #[test]
+    fn mean_and_maximum_of_a_checkerboard_come_from_its_squares() {
+        let mut textures = Textures::default();
+        let color0 = textures.constant(Color::new(0.5, 0.0, 1.0));
+        let color1 = textures.constant(Color::new(0.25, 1.0, 0.0));
+        let board = Checkerboard { color0, color1, uv: UvTransform::IDENTITY };
+        let id = textures.add(Texture::Checkerboard(board));
+        assert_eq!(textures.mean(id), Color::new(0.375, 0.5, 0.5));
+        assert_eq!(textures.max(id), Color::new(0.5, 1.0, 1.0));
+        assert!(!textures.is_constant(id) && textures.is_constant(color0));
+    }
+}
