@@ -10,13 +10,13 @@
 
 use etendue_math::Real;
 
-/// `other/own`, with both guarded; `None` where the weight of `own` is 0 whatever the other does.
+/// `other/own` of guarded densities; `None` where the weight of `own` is 0 whatever the other does.
 #[inline]
 fn ratio<T: Real>(own: T, other: T) -> Option<T> {
-    if !(own > T::ZERO) {
+    // `clamp_to` turns NaN into 0.
+    let [own, other] = [own, other].map(|p| p.clamp_to(T::ZERO, T::INFINITY));
+    if own == T::ZERO {
         None
-    } else if !(other > T::ZERO) {
-        Some(T::ZERO)
     } else if own == other {
         // Two infinite densities share evenly.
         Some(T::ONE)

@@ -80,6 +80,7 @@ mod tests {
 
     /// Uniforms (exact `f32` numbers), direction and density of the polar map, computed at 60 digits.
     #[rustfmt::skip]
+    #[allow(clippy::approx_constant, reason = "golden values are kept as computed")]
     const GOLDEN: [([f64; 2], [f64; 3], f64); 20] = [
         ([0.004270383156836033, 0.8994773030281067], [0.8053571104859625, -0.58917700348271, 0.06534816873360746], 0.02080096815191374),
         ([0.5369206666946411, 0.6071256995201111], [-0.5320815339052728, -0.42422703188548805, 0.7327487063752764], 0.2332411573276341),
