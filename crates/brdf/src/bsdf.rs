@@ -90,9 +90,15 @@ pub type BsdfReal<B> = <<B as Bsdf>::Color as Spectrum>::Real;
 /// The vector type of a model.
 pub type BsdfVec<B> = Vec3<BsdfReal<B>>;
 
+/// A finite direction above the surface. False for NaN.
+#[inline(always)]
+pub(crate) fn above<V: Vector3>(w: V) -> bool {
+    // A comparison with the squared length costs less than testing three components for NaN.
+    w.z() > V::Scalar::ZERO && w.length_squared() < V::Scalar::INFINITY
+}
+
 /// Both directions above the surface: the domain of a one-sided reflection model.
-/// False for NaN.
 #[inline(always)]
 pub(crate) fn both_above<V: Vector3>(wo: V, wi: V) -> bool {
-    wo.z() > V::Scalar::ZERO && wi.z() > V::Scalar::ZERO
+    above(wo) && above(wi)
 }

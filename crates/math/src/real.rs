@@ -156,6 +156,8 @@ pub trait Real:
     }
     /// Error function, see [`crate::special::erf`].
     fn erf(self) -> Self;
+    /// Complementary error function `1 − erf(x)` without cancellation for large `x`.
+    fn erfc(self) -> Self;
     /// `a·b − c·d` without catastrophic cancellation: correct to 1.5 ulp where the products do not
     /// over- or underflow (Jeannerod et al. 2013 for `f64`; through `f64` for `f32`).
     fn difference_of_products(a: Self, b: Self, c: Self, d: Self) -> Self;
@@ -170,7 +172,7 @@ pub trait Real:
 }
 
 macro_rules! real {
-    ($float:ident, $vec3:ty, $digits:expr, $erf:path) => {
+    ($float:ident, $vec3:ty, $digits:expr, $erf:path, $erfc:path) => {
         impl Real for $float {
             type Vec3 = $vec3;
 
@@ -282,6 +284,10 @@ macro_rules! real {
                 $erf(self)
             }
             #[inline(always)]
+            fn erfc(self) -> Self {
+                $erfc(self)
+            }
+            #[inline(always)]
             fn difference_of_products(a: Self, b: Self, c: Self, d: Self) -> Self {
                 difference_of_products::$float(a, b, c, d)
             }
@@ -305,8 +311,8 @@ macro_rules! real {
     };
 }
 
-real!(f32, glam::Vec3, 24, libm_crate::erff);
-real!(f64, glam::DVec3, 53, libm_crate::erf);
+real!(f32, glam::Vec3, 24, libm_crate::erff, libm_crate::erfcf);
+real!(f64, glam::DVec3, 53, libm_crate::erf, libm_crate::erfc);
 
 mod difference_of_products {
     use super::backend;

@@ -1,0 +1,119 @@
+//! Opacity: a surface that is partly not there.
+
+use etendue_math::{Real, Spectrum};
+
+use crate::null::exists;
+use crate::{Bsdf, BsdfReal, BsdfVec, Density, Lobes, Opacity, Sample};
+
+/// A model blended with straight pass-through.
+///
+/// ```text
+/// f = a f_inner + (1 − a) δ(wi + wo),  a = opacity
+/// ```
+///
+/// * Laws: those of the inner model; albedo `a R + (1 − a)`.
+/// * Sampling: the inner model with probability a, with `u_lobe` stretched for its own use.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Mask<B: Bsdf> {
+    inner: B,
+    opacity: BsdfReal<B>,
+}
+
+impl<B: Bsdf> Mask<B> {
+    /// `inner` seen with the given opacity.
+    #[inline]
+    pub fn new(inner: B, opacity: Opacity<BsdfReal<B>>) -> Self {
+        Self { inner, opacity: opacity.value() }
+    }
+}
+
+impl<B: Bsdf> Bsdf for Mask<B> {
+    type Color = B::Color;
+
+    #[inline]
+    fn lobes(&self) -> Lobes {
+        let inner = self.inner.lobes();
+        if self.opacity < BsdfReal::<B>::ONE {
+            Lobes { delta: true, transmission: true, ..inner }
+        } else {
+            inner
+        }
+    }
+
+    #[inline]
+    fn eval(&self, wo: BsdfVec<Self>, wi: BsdfVec<Self>) -> B::Color {
+        self.inner.eval(wo, wi).scale(self.opacity)
+    }
+
+    #[inline]
+    fn pdf(&self, wo: BsdfVec<Self>, wi: BsdfVec<Self>) -> BsdfReal<Self> {
+        self.inner.pdf(wo, wi) * self.opacity
+    }
+
+    #[inline]
+    fn eval_pdf(&self, wo: BsdfVec<Self>, wi: BsdfVec<Self>) -> (B::Color, BsdfReal<Self>) {
+        let (f, pdf) = self.inner.eval_pdf(wo, wi);
+        (f.scale(self.opacity), pdf * self.opacity)
+    }
+
+    #[inline]
+    fn sample(
+        &self,
+        wo: BsdfVec<Self>,
+        u_lobe: BsdfReal<Self>,
+        u: [BsdfReal<Self>; 2],
+    ) -> Option<Sample<B::Color>> {
+        let one = BsdfReal::<B>::ONE;
+        if u_lobe < self.opacity {
+            let stretched = (u_lobe / self.opacity).min(BsdfReal::<B>::ONE_MINUS_EPSILON);
+            let sample = self.inner.sample(wo, stretched, u)?;
+            let density = match sample.density {
+                Density::Continuous(pdf) => Density::Continuous(pdf * self.opacity),
+                Density::Delta(p) => Density::Delta(p * self.opacity),
+            };
+            return Some(Sample { density, ..sample });
+        }
+        exists(wo).then(|| Sample {
+            wi: -wo,
+            weight: B::Color::white(),
+            density: Density::Delta(one - self.opacity),
+            eta: one,
+        })
+    }
+
+    #[inline]
+    fn albedo(&self, wo: BsdfVec<Self>) -> Option<B::Color> {
+        let through =
+            if exists(wo) { BsdfReal::<B>::ONE - self.opacity } else { BsdfReal::<B>::ZERO };
+        Some(self.inner.albedo(wo)?.scale(self.opacity) + B::Color::splat(through))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Lambert, Reflectance, laws};
+    use etendue_math::glam::DVec3;
+
+    fn leaf(opacity: f64) -> Mask<Lambert<f64>> {
+        Mask::new(Lambert::new(Reflectance::white()), Opacity::new(opacity).unwrap())
+    }
+
+    #[test]
+    fn it_obeys_the_laws_of_a_bsdf() {
+        laws::reciprocal(&leaf(0.3), 1e-15);
+        laws::sampling_matches_density(&leaf(0.3), 1e-14);
+        laws::total(&leaf(0.3));
+        laws::total(&leaf(0.0));
+        laws::total(&leaf(1.0));
+    }
+
+    #[test]
+    fn what_is_not_met_goes_straight_on() {
+        let wo = DVec3::new(0.6, 0.0, 0.8);
+        let s = leaf(0.3).sample(wo, 0.31, [0.5; 2]).unwrap();
+        assert_eq!((s.wi, s.weight, s.density), (-wo, 1.0, Density::Delta(0.7)));
+        assert_eq!(leaf(0.3).albedo(wo), Some(1.0));
+        assert!(!leaf(1.0).lobes().delta && leaf(0.999).lobes().delta);
+    }
+}

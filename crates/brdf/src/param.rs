@@ -1,0 +1,271 @@
+//! Validated parameters: what a constructor has checked, evaluation need not.
+
+use core::error::Error;
+use core::fmt;
+
+use etendue_math::{Real, Spectrum};
+
+/// A parameter outside its domain.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ParameterError {
+    /// Name of the parameter.
+    pub parameter: &'static str,
+    /// The offending value, of the first offending channel for colours.
+    pub value: f64,
+    /// What is accepted, in words.
+    pub domain: &'static str,
+}
+
+impl fmt::Display for ParameterError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} is {}, but must be {}", self.parameter, self.value, self.domain)
+    }
+}
+
+impl Error for ParameterError {}
+
+/// `x` when it lies in `[low, high]`; NaN does not.
+fn within<T: Real>(
+    parameter: &'static str,
+    x: T,
+    [low, high]: [f64; 2],
+    domain: &'static str,
+) -> Result<T, ParameterError> {
+    if x >= T::lit(low) && x <= T::lit(high) {
+        Ok(x)
+    } else {
+        Err(ParameterError { parameter, value: x.to_f64(), domain })
+    }
+}
+
+/// Width parameter α of a microfacet distribution, dimensionless; never its square root.
+///
+/// Domain `[1e-8, 1e4]`. Below, the lobe is narrower than the rounding of a unit `f32` vector and
+/// the surface is a mirror: choose the delta model, as [`Conductor`](crate::Conductor) and
+/// [`Dielectric`](crate::Dielectric) do.
+///
+/// # Examples
+/// ```
+/// use etendue_brdf::Alpha;
+/// assert_eq!(Alpha::new(0.25_f32)?.value(), 0.25);
+/// assert!(Alpha::new(f32::NAN).is_err());
+/// assert!(Alpha::new(0.0_f32).is_err());
+/// # Ok::<(), etendue_brdf::ParameterError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
+pub struct Alpha<T>(T);
+
+impl<T: Real> Alpha<T> {
+    /// The smallest α that is a rough surface and the largest accepted one.
+    pub const RANGE: [f64; 2] = [1e-8, 1e4];
+
+    /// Checks α.
+    ///
+    /// # Errors
+    /// [`ParameterError`] outside `[1e-8, 1e4]`.
+    pub fn new(alpha: T) -> Result<Self, ParameterError> {
+        within("alpha", alpha, Self::RANGE, "in [1e-8, 1e4]").map(Self)
+    }
+
+    /// α moved into the domain; NaN becomes the smallest: for values read from textures.
+    #[inline]
+    pub fn clamped(alpha: T) -> Self {
+        Self(alpha.clamp_to(T::lit(Self::RANGE[0]), T::lit(Self::RANGE[1])))
+    }
+
+    /// The number.
+    #[inline(always)]
+    pub fn value(self) -> T {
+        self.0
+    }
+}
+
+/// Relative index of refraction η = n(below) / n(above), dimensionless. Domain `[1e-4, 1e4]`.
+#[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
+pub struct Ior<T>(T);
+
+impl<T: Real> Ior<T> {
+    /// Checks a relative index.
+    ///
+    /// # Errors
+    /// [`ParameterError`] outside `[1e-4, 1e4]`.
+    pub fn new(eta: T) -> Result<Self, ParameterError> {
+        within("eta", eta, [1e-4, 1e4], "in [1e-4, 1e4]").map(Self)
+    }
+
+    /// The relative index of the medium below, `interior`, and the one above, `exterior`.
+    ///
+    /// # Errors
+    /// [`ParameterError`] where one of the two, or their ratio, lies outside `[1e-4, 1e4]`.
+    pub fn from_media(interior: T, exterior: T) -> Result<Self, ParameterError> {
+        let interior = within("interior index", interior, [1e-4, 1e4], "in [1e-4, 1e4]")?;
+        let exterior = within("exterior index", exterior, [1e-4, 1e4], "in [1e-4, 1e4]")?;
+        Self::new(interior / exterior)
+    }
+
+    /// The number.
+    #[inline(always)]
+    pub fn value(self) -> T {
+        self.0
+    }
+
+    /// Both media have the same index: the interface is invisible.
+    #[inline(always)]
+    pub fn is_matched(self) -> bool {
+        self.0 == T::ONE
+    }
+}
+
+/// Complex relative index of refraction η + ik of a conductor, per channel, in `[0, 1e4]`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ComplexIor<C> {
+    eta: C,
+    k: C,
+}
+
+impl<C: Spectrum> ComplexIor<C> {
+    /// Checks the real part and the extinction coefficient.
+    ///
+    /// # Errors
+    /// [`ParameterError`] where a channel of either lies outside `[0, 1e4]`.
+    pub fn new(eta: C, k: C) -> Result<Self, ParameterError> {
+        for i in 0..C::CHANNELS {
+            within("eta", eta.channel(i), [0.0, 1e4], "in [0, 1e4]")?;
+            within("k", k.channel(i), [0.0, 1e4], "in [0, 1e4]")?;
+        }
+        Ok(Self { eta, k })
+    }
+
+    /// The index whose Fresnel reflectance is 1 at every angle: η + ik = i, the perfect mirror.
+    pub fn perfect() -> Self {
+        Self { eta: C::black(), k: C::white() }
+    }
+
+    /// Real part η.
+    #[inline(always)]
+    pub fn eta(self) -> C {
+        self.eta
+    }
+
+    /// Extinction coefficient k.
+    #[inline(always)]
+    pub fn k(self) -> C {
+        self.k
+    }
+}
+
+/// A reflectance, transmittance or scale factor per channel. Domain `[0, 1]`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Reflectance<C>(C);
+
+impl<C: Spectrum> Reflectance<C> {
+    /// Checks every channel.
+    ///
+    /// # Errors
+    /// [`ParameterError`] where a channel lies outside `[0, 1]`.
+    pub fn new(reflectance: C) -> Result<Self, ParameterError> {
+        for i in 0..C::CHANNELS {
+            within("reflectance", reflectance.channel(i), [0.0, 1.0], "in [0, 1]")?;
+        }
+        Ok(Self(reflectance))
+    }
+
+    /// Every channel moved into `[0, 1]`, NaN to 0: for values read from textures.
+    #[inline]
+    pub fn clamped(reflectance: C) -> Self {
+        Self(reflectance.map(|c| c.clamp_to(C::Real::ZERO, C::Real::ONE)))
+    }
+
+    /// 1 in every channel.
+    #[inline]
+    pub fn white() -> Self {
+        Self(C::white())
+    }
+
+    /// The colour.
+    #[inline(always)]
+    pub fn value(self) -> C {
+        self.0
+    }
+}
+
+/// Standard deviation σ of the facets' slope angle, in radians. Domain: finite, not negative.
+#[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
+pub struct Sigma<T>(T);
+
+impl<T: Real> Sigma<T> {
+    /// Checks σ.
+    ///
+    /// # Errors
+    /// [`ParameterError`] where σ is negative, infinite or NaN.
+    pub fn new(sigma: T) -> Result<Self, ParameterError> {
+        within("sigma", sigma, [0.0, T::MAX.to_f64()], "finite and not negative").map(Self)
+    }
+
+    /// The number.
+    #[inline(always)]
+    pub fn value(self) -> T {
+        self.0
+    }
+}
+
+/// Opacity, the share of light that meets the surface at all. Domain `[0, 1]`.
+#[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
+pub struct Opacity<T>(T);
+
+impl<T: Real> Opacity<T> {
+    /// Checks an opacity.
+    ///
+    /// # Errors
+    /// [`ParameterError`] outside `[0, 1]`.
+    pub fn new(opacity: T) -> Result<Self, ParameterError> {
+        within("opacity", opacity, [0.0, 1.0], "in [0, 1]").map(Self)
+    }
+
+    /// The opacity moved into `[0, 1]`, NaN to 0: for values read from textures.
+    #[inline]
+    pub fn clamped(opacity: T) -> Self {
+        Self(opacity.clamp_to(T::ZERO, T::ONE))
+    }
+
+    /// The number.
+    #[inline(always)]
+    pub fn value(self) -> T {
+        self.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use etendue_math::Rgb;
+    use std::string::ToString;
+
+    #[test]
+    fn every_type_refuses_nan_and_infinity() {
+        for x in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, -1.0] {
+            assert!(Alpha::new(x).is_err());
+            assert!(Ior::new(x).is_err());
+            assert!(ComplexIor::new(x, 1.0).is_err() && ComplexIor::new(1.0, x).is_err());
+            assert!(Reflectance::new(x).is_err());
+            assert!(Sigma::new(x).is_err());
+            assert!(Opacity::new(x).is_err());
+        }
+    }
+
+    #[test]
+    fn clamping_is_total() {
+        assert_eq!(
+            Reflectance::clamped(Rgb::new(f32::NAN, 2.0, -1.0)).value(),
+            Rgb::new(0.0, 1.0, 0.0)
+        );
+        assert_eq!(Alpha::clamped(f32::NAN).value(), 1e-8);
+        assert_eq!(Opacity::clamped(f64::INFINITY).value(), 1.0);
+    }
+
+    #[test]
+    fn an_error_names_parameter_value_and_domain() {
+        let text = Reflectance::new(Rgb::new(0.5_f64, 1.5, 0.5)).unwrap_err().to_string();
+        assert_eq!(text, "reflectance is 1.5, but must be in [0, 1]");
+    }
+}
