@@ -1,0 +1,233 @@
+//! One node of the light tree in 32 bytes, and its importance to a receiver.
+
+use etendue_math::glam::Vec3;
+use etendue_math::{Real, Vector3};
+
+use super::cluster::{Cluster, Faces};
+use super::receiver::{Receiver, Sides};
+
+/// A cluster, compressed. Cosines are rounded towards wider cones, so that compression never makes
+/// an emitter invisible that is not.
+#[derive(Clone, Copy, Debug)]
+#[repr(align(32))]
+pub(super) struct Node {
+    centre: Vec3,
+    radius: f32,
+    power: f32,
+    /// Octahedral coordinates of the axis.
+    axis: [i16; 2],
+    cos_normals: i16,
+    cos_emission: i16,
+    link: u32,
+}
+
+/// What hangs below a node.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Link {
+    /// A pair of nodes, by index.
+    Pair(u32),
+    /// An emitter, by index.
+    Emitter(u32),
+}
+
+const EMITTER: u32 = 1 << 31;
+const BOTH_FACES: u32 = 1 << 30;
+const INDEX: u32 = BOTH_FACES - 1;
+const SCALE: f32 = i16::MAX as f32;
+
+/// Two children side by side: one cache line.
+#[derive(Clone, Copy, Debug)]
+#[repr(align(64))]
+pub(super) struct Pair(pub(super) [Node; 2]);
+
+impl Node {
+    /// How many emitters a tree can hold.
+    pub(super) const MAX_EMITTERS: usize = INDEX as usize;
+
+    /// Compresses a cluster whose power is a share of the total, in (0, 1].
+    pub(super) fn new(cluster: &Cluster, link: Link) -> Self {
+        let kind = match link {
+            Link::Pair(index) => index,
+            Link::Emitter(index) => index | EMITTER,
+        };
+        let faces = if cluster.faces == Faces::Both { BOTH_FACES } else { 0 };
+        Self {
+            centre: cluster.centre(),
+            radius: cluster.radius(),
+            power: cluster.power,
+            axis: octahedral(cluster.normals.axis),
+            cos_normals: rounded_down(cluster.normals.cos_spread),
+            cos_emission: rounded_down(cluster.cos_emission),
+            link: kind | faces,
+        }
+    }
+
+    /// What hangs below.
+    #[inline]
+    pub(super) fn link(&self) -> Link {
+        let index = self.link & INDEX;
+        if self.link & EMITTER == 0 { Link::Pair(index) } else { Link::Emitter(index) }
+    }
+
+    /// An estimate of the irradiance the cluster's light makes at the receiver, unoccluded; 0 only
+    /// where it makes none.
+    ///
+    /// ```text
+    /// I = Φ cos θ' cos θi' / max(d², r²)
+    /// θ'  = max(0, θw − θo − θb) ≤ θe,   θi' = max(0, θi − θb)
+    /// ```
+    ///
+    /// θw between axis and receiver, θi between receiver's normal and cluster, θb the half angle
+    /// under which the sphere around the cluster (radius r) is seen.
+    ///
+    /// # Source
+    /// Conty Estevez, Kulla 2018, equation 3; Pharr, Jakob, Humphreys, "Physically Based
+    /// Rendering", 4th edition, section 12.6.3. Departures: the distance is limited by r² (there:
+    /// by r, which depends on the unit of length), and a receiver that only reflects sees
+    /// nothing behind it.
+    #[inline]
+    pub(super) fn importance(&self, receiver: &Receiver) -> f32 {
+        // Cosines of clamped differences; a thousandth covers the rounding of all that follows.
+        const GRAZING: f32 = 1e-3;
+        let to_cluster = self.centre - receiver.position;
+        let distance_squared = to_cluster.length_squared();
+        let radius_squared = self.radius * self.radius;
+        if distance_squared <= radius_squared || distance_squared < f32::MIN_POSITIVE {
+            return self.power / radius_squared.max(NEAREST);
+        }
+        let direction = to_cluster / distance_squared.sqrt();
+        let sin2_b = radius_squared / distance_squared;
+        let bound = Angle { cos: (1.0 - sin2_b).safe_sqrt(), sin: sin2_b.sqrt() };
+
+        let cos_w = -direction.dot(self.axis());
+        let cos_w = if self.link & BOTH_FACES == 0 { cos_w } else { cos_w.abs() };
+        let normals = Angle::from_cos(f32::from(self.cos_normals) / SCALE);
+        let emission = Angle::from_cos(cos_w).minus(normals).minus(bound);
+        if emission.cos < f32::from(self.cos_emission) / SCALE - GRAZING {
+            return 0.0;
+        }
+        let cos_i = direction.dot(receiver.normal);
+        let cos_i = if receiver.sides == Sides::Both { cos_i.abs() } else { cos_i };
+        let incident = Angle::from_cos(cos_i).minus(bound);
+        if incident.cos < -GRAZING {
+            return 0.0;
+        }
+        self.power * emission.cos.max(GRAZING) * incident.cos.max(GRAZING)
+            / distance_squared.max(NEAREST)
+    }
+
+    fn axis(&self) -> Vec3 {
+        let [x, y] = self.axis.map(|c| f32::from(c) / SCALE);
+        let z = 1.0 - x.abs() - y.abs();
+        let fold = (-z).max(0.0);
+        let v = Vec3::new(x - fold.copysign(x), y - fold.copysign(y), z);
+        v / v.length()
+    }
+}
+
+/// The smallest squared distance that counts: keeps importances finite.
+const NEAREST: f32 = 1e-30;
+
+/// An angle in [0, π] by its sine and cosine.
+#[derive(Clone, Copy)]
+struct Angle {
+    cos: f32,
+    sin: f32,
+}
+
+impl Angle {
+    #[inline(always)]
+    fn from_cos(cos: f32) -> Self {
+        Self { cos, sin: (1.0 - cos * cos).safe_sqrt() }
+    }
+
+    /// max(0, self − other).
+    #[inline(always)]
+    fn minus(self, other: Self) -> Self {
+        if self.cos >= other.cos {
+            return Self { cos: 1.0, sin: 0.0 };
+        }
+        Self {
+            cos: self.cos * other.cos + self.sin * other.sin,
+            sin: self.sin * other.cos - self.cos * other.sin,
+        }
+    }
+}
+
+/// The cosine of an angle at least 10⁻⁴ larger: what 16 bits of the axis can be wrong by.
+fn rounded_down(cos: f32) -> i16 {
+    let sin = (1.0 - cos * cos).safe_sqrt();
+    // cos(θ + 10⁻⁴), or −1 where that passes π.
+    let wider = if cos < -0.9999 { -1.0 } else { cos - 1e-4 * sin };
+    (wider.clamp(-1.0, 1.0) * SCALE).floor() as i16
+}
+
+/// Octahedral coordinates of a unit vector.
+///
+/// # Source
+/// Meyer et al., "On Floating-Point Normal Vectors", EGSR 2010.
+fn octahedral(v: Vec3) -> [i16; 2] {
+    let sum = v.x.abs() + v.y.abs() + v.z.abs();
+    let (x, y) = (v.x / sum, v.y / sum);
+    let (x, y) = if v.z >= 0.0 {
+        (x, y)
+    } else {
+        ((1.0 - y.abs()).copysign(x), (1.0 - x.abs()).copysign(y))
+    };
+    [x, y].map(|c| (c * SCALE).round() as i16)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn receiver(position: Vec3, normal: Vec3, sides: Sides) -> Receiver {
+        Receiver { position, normal, sides }
+    }
+
+    #[test]
+    fn a_pair_of_nodes_is_one_cache_line() {
+        assert_eq!((size_of::<Node>(), size_of::<Pair>()), (32, 64));
+    }
+
+    #[test]
+    fn compressed_axes_are_within_a_ten_thousandth() {
+        for i in 0..1000_u32 {
+            let t = i as f32 * 0.37;
+            let v = Vec3::new(Real::sin(t), Real::cos(1.7 * t), Real::sin(2.3 * t + 1.0));
+            let Some(v) = v.try_normalize() else { continue };
+            let node = Node::new(&Cluster::patch(Vec3::ZERO, 0.1, v, 1.0), Link::Emitter(0));
+            // Half a step of 2⁻¹⁵ in two coordinates, stretched at most √3 by the octahedron.
+            assert!((node.axis() - v).length() < 1e-4, "{v}");
+        }
+    }
+
+    #[test]
+    fn a_point_light_is_worth_cosine_over_squared_distance() {
+        let node = Node::new(&Cluster::point(Vec3::new(0.0, 0.0, 2.0), 0.5), Link::Emitter(0));
+        let n = Vec3::new(0.6, 0.0, 0.8);
+        let importance = node.importance(&receiver(Vec3::ZERO, n, Sides::Front));
+        // A few roundings.
+        assert!((importance - 0.5 * 0.8 / 4.0).abs() < 1e-6);
+    }
+
+    #[test]
+    fn light_behind_an_opaque_receiver_or_behind_the_emitter_is_worth_nothing() {
+        let patch = Cluster::patch(Vec3::new(0.0, 0.0, 5.0), 0.1, -Vec3::Z, 1.0);
+        let node = Node::new(&patch, Link::Emitter(0));
+        let at = |z: f32, normal, sides| {
+            node.importance(&receiver(Vec3::new(0.0, 0.0, z), normal, sides))
+        };
+        assert!(at(0.0, Vec3::Z, Sides::Front) > 0.0);
+        assert_eq!(at(0.0, -Vec3::Z, Sides::Front), 0.0);
+        assert!(at(0.0, -Vec3::Z, Sides::Both) > 0.0);
+        assert_eq!(at(10.0, -Vec3::Z, Sides::Front), 0.0);
+    }
+
+    #[test]
+    fn importance_is_finite_on_top_of_a_light() {
+        let node = Node::new(&Cluster::point(Vec3::ONE, 1.0), Link::Emitter(0));
+        let importance = node.importance(&receiver(Vec3::ONE, Vec3::Z, Sides::Front));
+        assert!(importance.is_finite() && importance > 0.0);
+    }
+}

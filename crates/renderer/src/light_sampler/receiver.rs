@@ -1,0 +1,23 @@
+//! The point for which a light is chosen.
+
+use etendue_math::glam::Vec3;
+
+/// A surface point that light is to be brought to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Receiver {
+    /// World position.
+    pub position: Vec3,
+    /// Unit shading normal, on the viewer's side.
+    pub normal: Vec3,
+    /// Which sides can bring light to the viewer.
+    pub sides: Sides,
+}
+
+/// From where a surface scatters light to its viewer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sides {
+    /// From the side of the normal only: it reflects.
+    Front,
+    /// From both sides: it transmits, too.
+    Both,
+}

@@ -1,0 +1,122 @@
+//! What a render did: samples, rays, and samples that were not numbers.
+
+/// Counts of one tile, or of a whole render.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Statistics {
+    /// Paths started, non-finite ones included.
+    pub samples: u64,
+    /// Rays traced.
+    pub rays: RayCounts,
+    /// Samples that were NaN or infinite and were left out of their pixels.
+    pub non_finite: NonFiniteSamples,
+}
+
+/// Rays by purpose.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct RayCounts {
+    /// From the camera, one per sample and one more for each hidden emitter crossed.
+    pub camera: u64,
+    /// To a light, any hit.
+    pub shadow: u64,
+    /// From a surface in a direction sampled from its reflection model.
+    pub indirect: u64,
+}
+
+impl RayCounts {
+    /// All rays together.
+    pub fn total(&self) -> u64 {
+        self.camera + self.shadow + self.indirect
+    }
+}
+
+/// How many samples were not finite, and the first of them.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct NonFiniteSamples {
+    count: u64,
+    first: Vec<SampleAddress>,
+}
+
+/// The address of a sample: with the seed of the render it determines every random number of its
+/// path, so that the path can be computed again.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct SampleAddress {
+    /// Row and column of the pixel on the full film: rows first, so that addresses sort in
+    /// reading order.
+    pub row: u32,
+    /// Column of the pixel on the full film.
+    pub column: u32,
+    /// Index of the sample within the pixel.
+    pub sample: u32,
+}
+
+impl NonFiniteSamples {
+    /// How many addresses are kept.
+    pub const KEPT: usize = 16;
+
+    /// How many samples were not finite.
+    pub fn count(&self) -> u64 {
+        self.count
+    }
+
+    /// The first of them in reading order, at most [`Self::KEPT`].
+    pub fn first(&self) -> &[SampleAddress] {
+        &self.first
+    }
+
+    /// Counts one sample.
+    #[cold]
+    pub fn record(&mut self, address: SampleAddress) {
+        self.count += 1;
+        self.keep(address);
+    }
+
+    fn keep(&mut self, address: SampleAddress) {
+        let place = self.first.partition_point(|kept| *kept < address);
+        if place < Self::KEPT {
+            self.first.insert(place, address);
+            self.first.truncate(Self::KEPT);
+        }
+    }
+}
+
+impl Statistics {
+    /// Adds the counts of another part of the same render. The result does not depend on the
+    /// order in which parts are merged.
+    pub fn merge(&mut self, other: &Self) {
+        self.samples += other.samples;
+        self.rays.camera += other.rays.camera;
+        self.rays.shadow += other.rays.shadow;
+        self.rays.indirect += other.rays.indirect;
+        self.non_finite.count += other.non_finite.count;
+        for &address in &other.non_finite.first {
+            self.non_finite.keep(address);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn part(rows: impl Iterator<Item = u32>) -> Statistics {
+        let mut part = Statistics { samples: 5, ..Statistics::default() };
+        for row in rows {
+            part.non_finite.record(SampleAddress { row, column: 0, sample: 0 });
+        }
+        part
+    }
+
+    #[test]
+    fn merging_in_any_order_keeps_the_same_first_addresses() {
+        let parts = [part((0..30).rev()), part(100..103), part(7..50)];
+        let (mut forward, mut backward) = (Statistics::default(), Statistics::default());
+        parts.iter().for_each(|p| forward.merge(p));
+        parts.iter().rev().for_each(|p| backward.merge(p));
+        assert_eq!(forward, backward);
+        assert_eq!(forward.non_finite.count(), 30 + 3 + 43);
+        assert_eq!(forward.samples, 15);
+        let rows: Vec<u32> = forward.non_finite.first().iter().map(|a| a.row).collect();
+        // Rows 7 and up occur in two parts.
+        assert_eq!(rows, [0, 1, 2, 3, 4, 5, 6, 7, 7, 8, 8, 9, 9, 10, 10, 11]);
+    }
+}
