@@ -1,0 +1,422 @@
+//! From the text of a scene file to its description.
+
+use std::borrow::ToOwned;
+use std::collections::BTreeMap;
+use std::format;
+use std::path::{Path, PathBuf};
+use std::string::{String, ToString};
+use std::vec::Vec;
+
+use roxmltree::Node as Element;
+
+use super::definitions::Definitions;
+use super::description::{Child, Description, Kind, Node, NodeId, Property};
+use super::names::{parse_version, snake_case, upgrade};
+use super::nearest::nearest;
+use super::resolve::{Reference, resolve};
+use super::source::Source;
+use super::{property, source};
+use crate::{Location, SceneError, Warning};
+
+/// What to do with what is not understood but can be left out.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Leniency {
+    /// It is an error.
+    #[default]
+    Strict,
+    /// It is a warning.
+    Lenient,
+}
+
+/// Plugins inside plugins, and includes inside includes, beyond which a file is refused.
+const DEEPEST_NESTING: usize = 64;
+const DEEPEST_INCLUDE: usize = 15;
+/// Files that one scene may include, counting repetitions.
+const MOST_INCLUDES: usize = 4096;
+
+/// Reads a scene file and everything it includes.
+///
+/// `definitions` replace `$name` in attribute values and win over `<default>`.
+///
+/// # Errors
+/// A file that cannot be read or is not XML; elements, attributes or values that a scene file does
+/// not have; names that are not defined or defined twice; includes or references in a circle.
+pub fn parse_file(
+    path: &Path,
+    definitions: &[(String, String)],
+    leniency: Leniency,
+) -> Result<Description, SceneError> {
+    let text = source::read(path)?;
+    parse_text(&text, path, definitions, leniency)
+}
+
+/// Reads a scene from a text; `path` is its name in messages and the place relative file names start
+/// from.
+///
+/// # Errors
+/// As [`parse_file`].
+pub fn parse_text(
+    text: &str,
+    path: &Path,
+    definitions: &[(String, String)],
+    leniency: Leniency,
+) -> Result<Description, SceneError> {
+    let mut parser = Parser {
+        nodes: Vec::new(),
+        ids: BTreeMap::new(),
+        references: Vec::new(),
+        definitions: Definitions::new(definitions),
+        files: Vec::new(),
+        warnings: Vec::new(),
+        chain: Vec::new(),
+    };
+    let root = parser.root(text, path)?;
+    let unused = parser.definitions.unused();
+    if !unused.is_empty() {
+        let message = format!("nothing in the scene uses the definition {}", unused.join(", "));
+        parser.forgive(leniency, SceneError::scene(Location::file(path), message))?;
+    }
+    resolve(&mut parser, leniency)?;
+    let Parser { nodes, ids, files, warnings, .. } = parser;
+    Ok(Description { nodes, root, ids, files, warnings })
+}
+
+/// The description under construction.
+pub(super) struct Parser {
+    pub(super) nodes: Vec<Node>,
+    pub(super) ids: BTreeMap<String, NodeId>,
+    pub(super) references: Vec<Reference>,
+    definitions: Definitions,
+    files: Vec<PathBuf>,
+    warnings: Vec<Warning>,
+    /// The file being read and those that include it, outermost first.
+    chain: Vec<PathBuf>,
+}
+
+/// An element's attributes after substitution.
+pub(super) type Attributes<'a> = Vec<(&'a str, String)>;
+
+impl Parser {
+    /// Returns the error, or keeps it as a warning.
+    pub(super) fn forgive(&mut self, to: Leniency, e: SceneError) -> Result<(), SceneError> {
+        match to {
+            Leniency::Strict => Err(e),
+            Leniency::Lenient => {
+                self.warnings.push(Warning::new(e.location, e.message));
+                Ok(())
+            }
+        }
+    }
+
+    fn root(&mut self, text: &str, path: &Path) -> Result<NodeId, SceneError> {
+        self.enter(path, &Location::file(path))?;
+        let document = source::document(text, path)?;
+        let mut source = Source::new(text, path, document.root_element())?;
+        let root = document.root_element();
+        if root.tag_name().name() != "scene" {
+            let message = format!("the outermost element is <{}>", root.tag_name().name());
+            return Err(
+                SceneError::scene(source.location(root), message).help("it must be <scene>")
+            );
+        }
+        let (id, _) = self.object(&mut source, root, Kind::Scene, 0)?;
+        self.chain.pop();
+        Ok(id)
+    }
+
+    /// Notes that a file is being read, unless it is being read already.
+    fn enter(&mut self, path: &Path, location: &Location) -> Result<(), SceneError> {
+        let key = path.canonicalize().unwrap_or_else(|_| path.to_owned());
+        let circle = self.chain.contains(&key);
+        self.chain.push(key);
+        self.files.push(path.to_owned());
+        let problem = if circle {
+            "a file includes itself"
+        } else if self.chain.len() > DEEPEST_INCLUDE {
+            "files include each other too deeply"
+        } else if self.files.len() > MOST_INCLUDES {
+            return Err(SceneError::resource(
+                location.clone(),
+                format!("more than {MOST_INCLUDES} files are included"),
+            ));
+        } else {
+            return Ok(());
+        };
+        let chain: Vec<String> = self.chain.iter().map(|p| p.display().to_string()).collect();
+        let message = format!("{problem}: {}", chain.join(" → "));
+        Err(SceneError::scene(location.clone(), message))
+    }
+
+    /// The attributes of an element, with every `$name` replaced.
+    fn attributes<'a>(
+        &mut self,
+        source: &Source<'_>,
+        element: Element<'a, '_>,
+    ) -> Result<Attributes<'a>, SceneError> {
+        let mut attributes = Attributes::new();
+        for attribute in element.attributes() {
+            let value = self.definitions.substitute(attribute.value()).map_err(|name| {
+                let location = source.at(attribute.range().start);
+                let error = SceneError::scene(location, format!("${name} is not defined"));
+                match nearest(&name, self.definitions.names()) {
+                    Some(known) => error.help(format!("did you mean ${known}?")),
+                    None => error.help(format!(
+                        "write <default name=\"{name}\" value=\"…\"/> before it, or pass -D {name}=…"
+                    )),
+                }
+            })?;
+            attributes.push((attribute.name(), value));
+        }
+        Ok(attributes)
+    }
+
+    /// A plugin and everything in it; also the parameter name it was given.
+    fn object(
+        &mut self,
+        source: &mut Source<'_>,
+        element: Element<'_, '_>,
+        kind: Kind,
+        depth: usize,
+    ) -> Result<(NodeId, String), SceneError> {
+        let location = source.location(element);
+        if depth > DEEPEST_NESTING {
+            let message = format!("plugins are nested more than {DEEPEST_NESTING} deep");
+            return Err(SceneError::resource(location, message));
+        }
+        let attributes = self.attributes(source, element)?;
+        let is_root = element.parent_element().is_none();
+        let allowed: &[&str] =
+            if is_root { &["version", "type", "id", "name"] } else { &["type", "id", "name"] };
+        source.check_attributes(element, allowed)?;
+        let get = |name| attributes.iter().find(|(n, _)| *n == name).map(|(_, v)| v.clone());
+        let plugin = match (get("type"), kind) {
+            (Some(plugin), _) => plugin,
+            (None, Kind::Scene) => "scene".into(),
+            (None, _) => return Err(source.missing_attribute(element, "type")),
+        };
+        let node = NodeId(self.nodes.len());
+        let id = get("id");
+        if let Some(id) = &id {
+            self.name(id, node, &location)?;
+        }
+        let name = source.property_name(&get("name").unwrap_or_default());
+        self.nodes.push(Node {
+            kind,
+            plugin,
+            id,
+            location,
+            properties: Vec::new(),
+            children: Vec::new(),
+            search: source.search.clone(),
+        });
+        self.content(source, element, node, depth)?;
+        if source.is_before_version_2() {
+            upgrade(&mut self.nodes[node.0])?;
+        }
+        // `<path>` may have come after the opening tag.
+        self.nodes[node.0].search.clone_from(&source.search);
+        Ok((node, name))
+    }
+
+    fn name(&mut self, id: &str, node: NodeId, location: &Location) -> Result<(), SceneError> {
+        match self.ids.insert(id.into(), node) {
+            None => Ok(()),
+            Some(previous) => {
+                let first = &self.nodes[previous.0].location;
+                let message = format!("the id “{id}” is taken already, at {first}");
+                Err(SceneError::scene(location.clone(), message))
+            }
+        }
+    }
+
+    /// Everything inside `element`, as the content of `node`.
+    fn content(
+        &mut self,
+        source: &mut Source<'_>,
+        element: Element<'_, '_>,
+        node: NodeId,
+        depth: usize,
+    ) -> Result<(), SceneError> {
+        for child in element.children().filter(Element::is_element) {
+            self.element(source, child, node, depth)?;
+        }
+        Ok(())
+    }
+
+    fn element(
+        &mut self,
+        source: &mut Source<'_>,
+        element: Element<'_, '_>,
+        parent: NodeId,
+        depth: usize,
+    ) -> Result<(), SceneError> {
+        let tag = element.tag_name().name();
+        let is_plugin = tag != "spectrum" || element.has_attribute("type");
+        let kind = if tag == "spectrum" { Some(Kind::Texture) } else { Kind::from_tag(tag) };
+        if let (Some(kind), true) = (kind, is_plugin) {
+            let (node, name) = self.object(source, element, kind, depth + 1)?;
+            let location = source.location(element);
+            return self.attach(parent, Child { name, node, location });
+        }
+        let attributes = self.attributes(source, element)?;
+        let location = source.location(element);
+        let required = |name: &str| {
+            let found = attributes.iter().find(|(n, _)| *n == name).map(|(_, v)| v.as_str());
+            found.ok_or_else(|| source.missing_attribute(element, name))
+        };
+        match tag {
+            "default" => {
+                source.check_attributes(element, &["name", "value"])?;
+                source.check_empty(element)?;
+                self.definitions.define_default(required("name")?, required("value")?);
+            }
+            "path" => {
+                source.check_attributes(element, &["value"])?;
+                source.check_empty(element)?;
+                let folder = source.search.resolve(required("value")?);
+                if !folder.is_dir() {
+                    let message = format!("there is no folder {}", folder.display());
+                    return Err(SceneError::scene(location, message));
+                }
+                source.search.prepend(folder);
+            }
+            "ref" => {
+                source.check_attributes(element, &["id", "name"])?;
+                source.check_empty(element)?;
+                let name = source.property_name(required("name").unwrap_or_default());
+                self.references.push(Reference {
+                    from: parent,
+                    to: required("id")?.into(),
+                    name,
+                    position: self.nodes[parent.0].children.len(),
+                    location,
+                });
+            }
+            "alias" => {
+                source.check_attributes(element, &["id", "as"])?;
+                source.check_empty(element)?;
+                let id = required("id")?;
+                let Some(&node) = self.ids.get(id) else {
+                    let message = format!("there is no “{id}” before this alias");
+                    return Err(SceneError::scene(location, message));
+                };
+                self.name(required("as")?, node, &location)?;
+            }
+            "include" => {
+                source.check_attributes(element, &["filename", "name"])?;
+                source.check_empty(element)?;
+                let path = source.search.resolve(required("filename")?);
+                let name = source.property_name(required("name").unwrap_or_default());
+                self.include(source, &path, parent, (&name, location), depth)?;
+            }
+            // Stands for the absence of a plugin.
+            "null" => source.check_empty(element)?,
+            "transform" => {
+                source.check_attributes(element, &["name"])?;
+                let name = required("name")?.to_owned();
+                let mut operations = Vec::new();
+                for child in element.children().filter(Element::is_element) {
+                    operations.push((child, self.attributes(source, child)?));
+                }
+                let value = property::transform(source, &operations)?;
+                self.set(parent, Property { name: source.property_name(&name), value, location })?;
+            }
+            _ => {
+                let (name, value) = property::value(source, element, &attributes)?;
+                self.set(parent, Property { name: source.property_name(name), value, location })?;
+            }
+        }
+        Ok(())
+    }
+
+    fn include(
+        &mut self,
+        source: &Source<'_>,
+        path: &Path,
+        parent: NodeId,
+        (name, location): (&str, Location),
+        depth: usize,
+    ) -> Result<(), SceneError> {
+        self.enter(path, &location)?;
+        let through = |mut e: SceneError| {
+            if e.location.line.is_none() {
+                e.message = format!("{} (included at {location})", e.message);
+            }
+            e
+        };
+        let text = source::read(path).map_err(through)?;
+        let document = source::document(&text, path)?;
+        let root = document.root_element();
+        let mut included = Source::included(&text, path, root, &source.search)?;
+        let tag = root.tag_name().name();
+        match Kind::from_tag(tag) {
+            Some(Kind::Scene) => {
+                included.check_attributes(root, &["version", "type", "id", "name"])?;
+                self.content(&mut included, root, parent, depth + 1)?;
+            }
+            Some(kind) => {
+                let (node, _) = self.object(&mut included, root, kind, depth + 1)?;
+                self.attach(parent, Child { name: name.into(), node, location })?;
+            }
+            None => return Err(included.unknown_element(root)),
+        }
+        self.chain.pop();
+        Ok(())
+    }
+
+    /// Adds a parameter, which must be the first of its name.
+    fn set(&mut self, parent: NodeId, property: Property) -> Result<(), SceneError> {
+        self.check_first(parent, &property.name, &property.location)?;
+        self.nodes[parent.0].properties.push(property);
+        Ok(())
+    }
+
+    fn attach(&mut self, parent: NodeId, child: Child) -> Result<(), SceneError> {
+        self.check_first(parent, &child.name, &child.location)?;
+        self.nodes[parent.0].children.push(child);
+        Ok(())
+    }
+
+    fn check_first(&self, node: NodeId, name: &str, at: &Location) -> Result<(), SceneError> {
+        let node = &self.nodes[node.0];
+        let first = node.properties.iter().map(|p| (&p.name, &p.location));
+        let mut all = first.chain(node.children.iter().map(|c| (&c.name, &c.location)));
+        // Plugins of a scene are many, and their names mean nothing there.
+        if name.is_empty() || node.kind == Kind::Scene {
+            return Ok(());
+        }
+        match all.find(|(n, _)| *n == name) {
+            None => Ok(()),
+            Some((_, first)) => {
+                let message = format!("“{name}” is given twice, the first time at {first}");
+                Err(SceneError::scene(at.clone(), message))
+            }
+        }
+    }
+}
+
+impl Source<'_> {
+    /// A parameter's name in today's spelling.
+    fn property_name(&self, name: &str) -> String {
+        if self.is_before_version_2() { snake_case(name) } else { name.to_string() }
+    }
+
+    fn is_before_version_2(&self) -> bool {
+        self.version[0] < 2
+    }
+
+    /// The version the root element states.
+    pub(super) fn parse_version(
+        location: Location,
+        root: Element<'_, '_>,
+    ) -> Result<[u32; 3], SceneError> {
+        let help = "write <scene version=\"3.0.0\">";
+        let Some(text) = root.attribute("version") else {
+            let message = format!("<{}> has no version", root.tag_name().name());
+            return Err(SceneError::scene(location, message).help(help));
+        };
+        parse_version(text).ok_or_else(|| {
+            SceneError::scene(location, format!("“{text}” is not a version")).help(help)
+        })
+    }
+}

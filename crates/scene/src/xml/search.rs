@@ -1,0 +1,62 @@
+//! Where the files a scene names are looked for.
+
+use std::path::{Path, PathBuf};
+use std::vec::Vec;
+
+/// Folders in the order in which they are searched.
+///
+/// The folder of the scene file comes first; each `<path>` goes before it, and so does the folder of
+/// an included file while that file is read.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct SearchPath(Vec<PathBuf>);
+
+impl SearchPath {
+    /// The folder that holds `file`.
+    pub fn beside(file: &Path) -> Self {
+        let mut path = Self::default();
+        path.prepend_folder_of(file);
+        path
+    }
+
+    /// Searches the folder that holds `file` first.
+    pub(crate) fn prepend_folder_of(&mut self, file: &Path) {
+        self.prepend(file.parent().unwrap_or(Path::new("")).to_path_buf());
+    }
+
+    /// Searches `folder` first.
+    pub(crate) fn prepend(&mut self, folder: PathBuf) {
+        self.0.insert(0, folder);
+    }
+
+    /// The first existing file or folder of that name. Where there is none, the place looked at
+    /// first, so that an error can name it. Backslashes count as slashes when nothing has them.
+    pub fn resolve(&self, name: &str) -> PathBuf {
+        let find = |name: &str| self.0.iter().map(|f| f.join(name)).find(|p| p.exists());
+        find(name)
+            .or_else(|| name.contains('\\').then(|| find(&name.replace('\\', "/"))).flatten())
+            .unwrap_or_else(|| self.0.first().map_or_else(|| name.into(), |f| f.join(name)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn folders_are_searched_in_order_and_the_first_is_named_in_vain() {
+        let folder = tempfile::tempdir().unwrap();
+        let inner = folder.path().join("inner");
+        std::fs::create_dir(&inner).unwrap();
+        std::fs::write(folder.path().join("a.txt"), "").unwrap();
+        std::fs::write(folder.path().join("b.txt"), "").unwrap();
+        std::fs::write(inner.join("a.txt"), "").unwrap();
+        let mut path = SearchPath::beside(&folder.path().join("scene.xml"));
+        path.prepend(inner.clone());
+        assert_eq!(path.resolve("a.txt"), inner.join("a.txt"));
+        assert_eq!(path.resolve("b.txt"), folder.path().join("b.txt"));
+        assert_eq!(path.resolve("inner\\a.txt"), inner.join("a.txt"));
+        assert_eq!(path.resolve("c.txt"), inner.join("c.txt"));
+        let absolute = folder.path().join("b.txt");
+        assert_eq!(path.resolve(&absolute.to_string_lossy()), absolute);
+    }
+}
