@@ -1,0 +1,137 @@
+//! The lines and fields of OBJ and MTL text.
+
+use alloc::borrow::Cow;
+use alloc::format;
+use alloc::string::String;
+
+/// A logical line, without its terminator.
+pub(super) struct Line<'a> {
+    /// Number of its first physical line, counted from 1.
+    pub(super) number: u32,
+    pub(super) text: Cow<'a, [u8]>,
+}
+
+/// The logical lines of a text: a byte-order mark is dropped, lines end with LF, CRLF or CR, and
+/// one that ends with a backslash goes on in the next. Comment lines do not go on: there a final
+/// backslash is the end of a Windows path.
+pub(super) struct Lines<'a> {
+    rest: Option<&'a [u8]>,
+    number: u32,
+}
+
+impl<'a> Lines<'a> {
+    pub(super) fn new(text: &'a [u8]) -> Self {
+        Self { rest: Some(text.strip_prefix(b"\xef\xbb\xbf").unwrap_or(text)), number: 0 }
+    }
+
+    fn physical(&mut self) -> Option<&'a [u8]> {
+        let rest = self.rest?;
+        self.number = self.number.saturating_add(1);
+        let Some(end) = rest.iter().position(|&b| b == b'\n' || b == b'\r') else {
+            self.rest = None;
+            return Some(rest);
+        };
+        let (line, tail) = rest.split_at(end);
+        self.rest = Some(tail.strip_prefix(b"\r\n").unwrap_or(&tail[1..]));
+        Some(line)
+    }
+}
+
+impl<'a> Iterator for Lines<'a> {
+    type Item = Line<'a>;
+
+    fn next(&mut self) -> Option<Line<'a>> {
+        let first = self.physical()?;
+        let number = self.number;
+        let mut text = Cow::Borrowed(first);
+        if !first.trim_ascii_start().starts_with(b"#") {
+            while let Some(b'\\') = text.last() {
+                let joined = text.to_mut();
+                joined.pop();
+                joined.push(b' ');
+                joined.extend_from_slice(self.physical().unwrap_or_default());
+            }
+        }
+        Some(Line { number, text })
+    }
+}
+
+/// The fields of a line up to a comment.
+pub(super) fn fields(text: &[u8]) -> impl Iterator<Item = &[u8]> {
+    text.split(u8::is_ascii_whitespace).filter(|f| !f.is_empty()).take_while(|f| f[0] != b'#')
+}
+
+/// The keyword of a line and the rest of it, trimmed.
+pub(super) fn statement(text: &[u8]) -> (&[u8], &[u8]) {
+    let text = text.trim_ascii();
+    let end = text.iter().position(u8::is_ascii_whitespace).unwrap_or(text.len());
+    let (keyword, rest) = text.split_at(end);
+    (keyword, rest.trim_ascii_start())
+}
+
+/// A finite number; otherwise what is wrong with the field.
+pub(super) fn real(field: &[u8]) -> Result<f32, String> {
+    match core::str::from_utf8(field).ok().and_then(|s| s.parse::<f32>().ok()) {
+        Some(x) if x.is_finite() => Ok(x),
+        Some(_) => Err(format!("{} is not a finite number", quote(field))),
+        None => Err(format!("{} is not a number", quote(field))),
+    }
+}
+
+/// A field for a message: quoted, and cut where it is long.
+pub(super) fn quote(field: &[u8]) -> String {
+    const LONGEST: usize = 40;
+    let shown = String::from_utf8_lossy(&field[..field.len().min(LONGEST)]);
+    let more = if field.len() > LONGEST { "…" } else { "" };
+    format!("'{}{more}'", shown.escape_debug())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use alloc::vec;
+    use alloc::vec::Vec;
+
+    fn lines(text: &[u8]) -> Vec<(u32, Vec<u8>)> {
+        Lines::new(text).map(|l| (l.number, l.text.into_owned())).collect()
+    }
+
+    #[test]
+    fn every_kind_of_line_end_counts_once() {
+        let expected =
+            vec![(1, b"a".to_vec()), (2, b"b".to_vec()), (3, b"c".to_vec()), (4, b"d".to_vec())];
+        assert_eq!(lines(b"a\nb\r\nc\rd"), expected);
+    }
+
+    #[test]
+    fn a_byte_order_mark_is_dropped() {
+        assert_eq!(lines(b"\xef\xbb\xbfv 1"), vec![(1, b"v 1".to_vec())]);
+    }
+
+    #[test]
+    fn continuations_are_joined_and_keep_line_numbers() {
+        assert_eq!(
+            lines(b"f 1\\\r\n2\\\n3\nx"),
+            vec![(1, b"f 1 2 3".to_vec()), (4, b"x".to_vec())]
+        );
+        assert_eq!(lines(b"f 1\\"), vec![(1, b"f 1 ".to_vec())]);
+        assert_eq!(lines(b"# C:\\\nv").len(), 2);
+    }
+
+    #[test]
+    fn fields_end_at_a_comment() {
+        assert_eq!(fields(b" v\t1 # 2").collect::<Vec<_>>(), [b"v".as_slice(), b"1"]);
+        assert_eq!(statement(b"  o  my mesh \r"), (b"o".as_slice(), b"my mesh".as_slice()));
+        assert_eq!(statement(b""), (b"".as_slice(), b"".as_slice()));
+    }
+
+    #[test]
+    fn numbers_are_decimal_and_finite() {
+        assert_eq!(real(b"-1.5E+2"), Ok(-150.0));
+        assert_eq!(real(b".5"), Ok(0.5));
+        assert_eq!(real(b"nan"), Err("'nan' is not a finite number".into()));
+        assert_eq!(real(b"1e99"), Err("'1e99' is not a finite number".into()));
+        assert_eq!(real(b"0x1"), Err("'0x1' is not a number".into()));
+        assert_eq!(real(b"\xff"), Err("'\u{fffd}' is not a number".into()));
+    }
+}

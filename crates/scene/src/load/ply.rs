@@ -1,0 +1,292 @@
+//! PLY meshes: ascii, binary little endian and binary big endian.
+//!
+//! Vertices have `x y z`, and may have `nx ny nz` and texture coordinates (`u v`, `s t`,
+//! `texture_u texture_v` or `texture_s texture_t`); faces have a list `vertex_indices` or
+//! `vertex_index`. Properties may come in any order and type. Other properties and elements, colours
+//! and face texture coordinates among them, are read over.
+//!
+//! A parser of its own: errors name the line or the byte, counts are checked against the file before
+//! anything is allocated, and no text is built in between.
+
+mod body;
+mod header;
+
+use alloc::format;
+use alloc::vec::Vec;
+use std::path::Path;
+
+use etendue_math::glam::{Vec2, Vec3};
+
+use crate::error::{Location, SceneError, Warning};
+use crate::geometry::TriangleMesh;
+
+use self::body::{Ascii, Binary, Body};
+use self::header::{Element, Format, Kind};
+use super::file::read_asset;
+use super::mesh_file::{MeshFile, TexCoords, mesh_error, stem};
+
+/// A PLY file as a mesh.
+///
+/// # Errors
+/// A file that cannot be read, and everything [`parse_ply`] refuses.
+pub fn load_ply(path: &Path, tex_coords: TexCoords) -> Result<MeshFile, SceneError> {
+    parse_ply(&read_asset(path)?, path, tex_coords)
+}
+
+/// The content of a PLY file as a mesh. `path` stands in messages. Polygons are cut into fans from
+/// their first corner; faces of fewer than three corners are ignored with a warning.
+///
+/// # Errors
+/// A malformed header; a missing coordinate; counts that the file is too short for; truncation; a
+/// coordinate that is not finite; a vertex index or list length that is negative, fractional or out
+/// of range. The message names the line (ascii) or the byte (binary).
+///
+/// # Examples
+/// ```
+/// use std::path::Path;
+/// use etendue_scene::load::{TexCoords, parse_ply};
+/// let text = b"ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n\
+///     property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n\
+///     0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+/// let file = parse_ply(text, Path::new("triangle.ply"), TexCoords::AsWritten)?;
+/// assert_eq!(file.mesh.triangles(), [[0, 1, 2]]);
+/// # Ok::<(), etendue_scene::SceneError>(())
+/// ```
+pub fn parse_ply(bytes: &[u8], path: &Path, tex_coords: TexCoords) -> Result<MeshFile, SceneError> {
+    let (header, rest, line) = header::parse(bytes, path)?;
+    let start = bytes.len() - rest.len();
+    match header.format {
+        Format::Ascii => read(&header.elements, Ascii::new(rest, line, path), path, tex_coords),
+        Format::Binary(order) => {
+            read(&header.elements, Binary::new(bytes, start, order, path), path, tex_coords)
+        }
+    }
+}
+
+fn read(
+    elements: &[Element],
+    mut body: impl Body,
+    path: &Path,
+    tex_coords: TexCoords,
+) -> Result<MeshFile, SceneError> {
+    let here = || Location::file(path);
+    let mut warnings = Vec::new();
+    let mut vertices = Vertices::default();
+    let mut triangles = Vec::new();
+    let declared = elements.iter().find(|e| e.name == "vertex").map_or(0, |e| e.count);
+    for element in elements {
+        if element.count > body.most_records(element) {
+            let message =
+                format!("{} {} records do not fit in the file", element.count, element.name);
+            return Err(SceneError::scene(Location::line(path, element.line), message));
+        }
+        match element.name.as_str() {
+            "vertex" => vertices = read_vertices(&mut body, element, path, tex_coords)?,
+            "face" if element.count > 0 => {
+                let small = read_faces(&mut body, element, declared, path, &mut triangles)?;
+                if small > 0 {
+                    let message = format!("{small} faces of fewer than three vertices are ignored");
+                    warnings.push(Warning::new(here(), message));
+                }
+            }
+            _ => skip(&mut body, element)?,
+        }
+    }
+    if triangles.is_empty() {
+        warnings.push(Warning::new(here(), "there are no faces"));
+    }
+    let mesh = TriangleMesh::new(vertices.positions, vertices.normals, vertices.uvs, triangles)
+        .map_err(mesh_error(path))?;
+    Ok(MeshFile { name: stem(path), mesh, face_normals: false, warnings })
+}
+
+#[derive(Default)]
+struct Vertices {
+    positions: Vec<Vec3>,
+    normals: Vec<Vec3>,
+    uvs: Vec<Vec2>,
+}
+
+/// Where the values of a vertex property go: eight slots for position, normal and (u, v), and one
+/// that is never read.
+const UNUSED: usize = 8;
+
+fn slot(name: &str) -> usize {
+    match name {
+        "x" => 0,
+        "y" => 1,
+        "z" => 2,
+        "nx" => 3,
+        "ny" => 4,
+        "nz" => 5,
+        "u" | "s" | "texture_u" | "texture_s" => 6,
+        "v" | "t" | "texture_v" | "texture_t" => 7,
+        _ => UNUSED,
+    }
+}
+
+fn read_vertices(
+    body: &mut impl Body,
+    element: &Element,
+    path: &Path,
+    tex_coords: TexCoords,
+) -> Result<Vertices, SceneError> {
+    let mut present = [false; UNUSED + 1];
+    let columns: Vec<(Kind, usize)> = element
+        .properties
+        .iter()
+        .map(|property| match property.kind {
+            Kind::Scalar(_) => (property.kind, slot(&property.name)),
+            Kind::List { .. } => (property.kind, UNUSED),
+        })
+        .collect();
+    for &(_, slot) in &columns {
+        present[slot] = true;
+    }
+    if element.count > 0 && !present[..3].iter().all(|&p| p) {
+        let message = "the element 'vertex' needs the properties x, y and z";
+        return Err(SceneError::scene(Location::line(path, element.line), message));
+    }
+    let has_normals = present[3..6].iter().all(|&p| p);
+    let has_uvs = present[6..8].iter().all(|&p| p);
+    let used = |slot| match slot {
+        0..3 => true,
+        3..6 => has_normals,
+        6..8 => has_uvs,
+        _ => false,
+    };
+    let capacity = |wanted| if wanted { element.count } else { 0 };
+    let mut vertices = Vertices {
+        positions: Vec::with_capacity(element.count),
+        normals: Vec::with_capacity(capacity(has_normals)),
+        uvs: Vec::with_capacity(capacity(has_uvs)),
+    };
+    for index in 0..element.count {
+        let mut slots = [0f32; UNUSED + 1];
+        for &(kind, slot) in &columns {
+            match kind {
+                Kind::Scalar(scalar) => {
+                    let value = body.value(scalar).ok_or_else(|| body.flaw(element, index))?;
+                    slots[slot] = value as f32;
+                    if used(slot) && !slots[slot].is_finite() {
+                        return Err(body.wrong(element, index, "is not a finite number"));
+                    }
+                }
+                Kind::List { .. } => skip_list(body, element, index, kind)?,
+            }
+        }
+        let [x, y, z, nx, ny, nz, u, v, _] = slots;
+        vertices.positions.push(Vec3::new(x, y, z));
+        if has_normals {
+            vertices.normals.push(Vec3::new(nx, ny, nz));
+        }
+        if has_uvs {
+            vertices.uvs.push(tex_coords.turn(Vec2::new(u, v)));
+        }
+    }
+    Ok(vertices)
+}
+
+/// Reads the faces; returns how many have fewer than three corners.
+fn read_faces(
+    body: &mut impl Body,
+    element: &Element,
+    vertices: usize,
+    path: &Path,
+    triangles: &mut Vec<[u32; 3]>,
+) -> Result<usize, SceneError> {
+    let is_indices = |name: &str| name == "vertex_indices" || name == "vertex_index";
+    let listed = |p: &header::Property| is_indices(&p.name) && matches!(p.kind, Kind::List { .. });
+    if !element.properties.iter().any(listed) {
+        let message = "the element 'face' needs a list 'vertex_indices'";
+        return Err(SceneError::scene(Location::line(path, element.line), message));
+    }
+    let mut small = 0;
+    triangles.reserve(element.count);
+    for index in 0..element.count {
+        for property in &element.properties {
+            let Kind::List { length, item } = property.kind else {
+                skip_property(body, element, index, property.kind)?;
+                continue;
+            };
+            if !is_indices(&property.name) {
+                skip_list(body, element, index, property.kind)?;
+                continue;
+            }
+            let corners = read_length(body, element, index, length)?;
+            let mut fan = [0u32; 2];
+            for corner in 0..corners {
+                let value = body.value(item).ok_or_else(|| body.flaw(element, index))?;
+                let vertex = value as u32;
+                if f64::from(vertex) != value || vertex as usize >= vertices {
+                    let what = format!("is not one of the vertices 0 to {}", vertices.max(1) - 1);
+                    return Err(body.wrong(element, index, &what));
+                }
+                match corner {
+                    0 | 1 => fan[corner as usize] = vertex,
+                    _ => {
+                        triangles.push([fan[0], fan[1], vertex]);
+                        fan[1] = vertex;
+                    }
+                }
+            }
+            small += usize::from(corners < 3);
+        }
+    }
+    Ok(small)
+}
+
+fn skip(body: &mut impl Body, element: &Element) -> Result<(), SceneError> {
+    if element.properties.is_empty() {
+        return Ok(()); // such records occupy nothing, however many are declared
+    }
+    for index in 0..element.count {
+        for property in &element.properties {
+            skip_property(body, element, index, property.kind)?;
+        }
+    }
+    Ok(())
+}
+
+fn skip_property(
+    body: &mut impl Body,
+    element: &Element,
+    index: usize,
+    kind: Kind,
+) -> Result<(), SceneError> {
+    match kind {
+        Kind::Scalar(scalar) => {
+            body.value(scalar).map(|_| ()).ok_or_else(|| body.flaw(element, index))
+        }
+        Kind::List { .. } => skip_list(body, element, index, kind),
+    }
+}
+
+fn skip_list(
+    body: &mut impl Body,
+    element: &Element,
+    index: usize,
+    kind: Kind,
+) -> Result<(), SceneError> {
+    let Kind::List { length, item } = kind else { return Ok(()) };
+    for _ in 0..read_length(body, element, index, length)? {
+        body.value(item).ok_or_else(|| body.flaw(element, index))?;
+    }
+    Ok(())
+}
+
+fn read_length(
+    body: &mut impl Body,
+    element: &Element,
+    index: usize,
+    length: header::Scalar,
+) -> Result<u64, SceneError> {
+    let value = body.value(length).ok_or_else(|| body.flaw(element, index))?;
+    if value < 0.0 || value.fract() != 0.0 {
+        return Err(body.wrong(element, index, "is not the length of a list"));
+    }
+    Ok(value as u64)
+}
+
+#[cfg(test)]
+mod tests;
