@@ -62,3 +62,8 @@ pub use sobol::Sobol;
 pub use table::TableError;
 pub use tabulated1d::{Choice, Tabulated1d};
 pub use tabulated2d::Tabulated2d;
+
+/// Runs the README's example.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -76,9 +76,9 @@ impl<T: Real> SeenSphere<T> {
     /// ```
     ///
     /// # Precision
-    /// 8 ε of each unit vector at any distance: the normal is built from the angles, not as the
-    /// difference of two far points. From just outside the sphere (`d/R − 1 < 1e-3`) `d − R` is what rounding
-    /// has left of it.
+    /// From outside 8 ε of each unit vector at any distance: the normal is built from the angles, not as
+    /// the difference of two far points. The distance carries the rounding of `d − R`, a relative
+    /// error of about `ε d/|d − R|`, as does everything seen from just inside.
     ///
     /// # Source
     /// The cone of the sphere, P. Shirley, C. Wang, "Monte Carlo Techniques for Direct Lighting

@@ -81,7 +81,7 @@ impl<T: Real> SphericalRectangle<T> {
     /// ```
     ///
     /// # Precision
-    /// Relative error about 8 ε. Departure from Ureña's sum of four inner angles minus 2π, which
+    /// Relative error about 10 ε. Departure from Ureña's sum of four inner angles minus 2π, which
     /// cancels for small rectangles.
     #[inline]
     pub fn solid_angle(&self) -> T {
@@ -127,7 +127,7 @@ impl<T: Real> SphericalRectangle<T> {
     /// The uniforms of a direction within the rectangle.
     ///
     /// # Precision
-    /// Absolute, about `8 ε` over the smaller angular extent.
+    /// Absolute, at most about `64 ε` over the smaller angular extent.
     #[inline]
     pub fn to_square(&self, w: Vec3<T>) -> [T; 2] {
         let [x, y] = self.hit(w);
