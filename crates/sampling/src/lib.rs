@@ -1,10 +1,11 @@
 //! Random numbers with addresses, low-discrepancy points, warps and tabulated distributions.
 //!
 //! # Addresses
-//! A random number is a pure function of (seed, pixel, sample index, [`Dimension`]), where a dimension
-//! *names* a decision: "the direction at vertex 3". Nothing is drawn in sequence. Hence a picture has
-//! the same bits for any number of threads, any order of tiles and any split of the samples among machines, and
-//! a path that skips a decision (a mirror needs no direction) leaves all later ones as they were.
+//! A random number is a pure function of (seed, pixel, sample index, [`Dimension`]), where a
+//! dimension *names* a decision: "the direction at vertex 3". Nothing is drawn in sequence. Hence a
+//! picture has the same bits for any number of threads, any order of tiles and any split of the
+//! samples among machines, and a path that skips a decision (a mirror needs no direction) leaves
+//! all later ones as they were.
 //!
 //! | [`Sampler`] | points | error of smooth integrals |
 //! | --- | --- | --- |

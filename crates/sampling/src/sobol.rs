@@ -16,8 +16,8 @@ use crate::{Dimension, Pcg32, Sampler};
 /// ```
 ///
 /// The keys are hashes of (seed, pixel, dimension). Within one dimension, the samples of a pixel
-/// whose indices fill an aligned block of 2ᵏ form a (0, k, 2)-net: every elementary interval of area 2⁻ᵏ
-/// holds exactly one. Different dimensions and pixels are independent.
+/// whose indices fill an aligned block of 2ᵏ form a (0, k, 2)-net: every elementary interval of
+/// area 2⁻ᵏ holds exactly one. Different dimensions and pixels are independent.
 ///
 /// Sample indices have 64 bits: each run of 2³² samples has keys of its own.
 ///
@@ -224,6 +224,15 @@ mod tests {
         // Independent: σ(xy)/√256 = 0.0138. Scrambled nets converge as N^-1.5 for smooth f.
         assert!((0.011..0.017).contains(&independent), "{independent}");
         assert!(sobol < independent / 20.0, "{sobol} {independent}");
+    }
+
+    #[test]
+    fn generators_differ_between_samples_and_dimensions() {
+        let rng = |sample, dimension| Sobol::at(0, [1, 2], sample).rng(dimension);
+        assert_eq!(rng(3, FILM), rng(3, FILM));
+        assert_ne!(rng(3, FILM), rng(4, FILM));
+        assert_ne!(rng(3, FILM), rng(3 + (1 << 32), FILM));
+        assert_ne!(rng(3, FILM), rng(3, LENS));
     }
 
     #[test]

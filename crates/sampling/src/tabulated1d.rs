@@ -10,8 +10,8 @@ use crate::warp::into_unit;
 /// `[0, 1)` with `n` equal pieces. It borrows its cumulative table, `n + 1` numbers from 0 to 1.
 ///
 /// The probability of an entry is the difference of its two numbers in the table, which is exactly
-/// how often it is drawn: rounding of the table biases nothing. Entries below `ε/2` of the total may vanish
-/// in it; use `f64` tables for more than about 10⁵ entries of very different weight.
+/// how often it is drawn: rounding of the table biases nothing. Entries below `ε/2` of the total
+/// may vanish in it; use `f64` tables for more than about 10⁵ entries of very different weight.
 ///
 /// # Examples
 /// ```
@@ -39,8 +39,8 @@ pub struct Choice<T> {
     pub index: usize,
     /// Its probability, greater than 0.
     pub probability: T,
-    /// What is left of the uniform number: again uniform in `[0, 1)`, with as many bits fewer as the
-    /// choice took.
+    /// What is left of the uniform number: again uniform in `[0, 1)`, with as many bits fewer as
+    /// the choice took.
     pub residual: T,
 }
 
@@ -69,8 +69,8 @@ impl<'a, T: Real> Tabulated1d<'a, T> {
     }
 
     /// The distribution of a table that [`Tabulated1d::build`] has filled. `None` unless it has at
-    /// least two numbers and runs from 0 to 1; what lies between is not checked, and a table that falls
-    /// gives meaningless samples, but neither panics nor leaves the range.
+    /// least two numbers and runs from 0 to 1; what lies between is not checked, and a table that
+    /// falls gives meaningless samples, but neither panics nor leaves the range.
     #[inline]
     pub fn from_cdf(cdf: &'a [T]) -> Option<Self> {
         match cdf {

@@ -70,7 +70,8 @@ pub(crate) fn check_density_on_sphere(map: impl Fn([f64; 2]) -> DVec3, pdf: impl
         }
     }
     let integral = expected.iter().sum::<f64>() / N as f64;
-    // The midpoint rule on 288 × 576 points; an edge of the support costs up to 1 % of small shapes.
+    // The midpoint rule on 288 × 576 points; an edge of the support costs up to 1 % of small
+    // shapes.
     assert!((integral - 1.0).abs() < 0.01, "the density integrates to {integral}");
     let z = chi_squared_deviation(&observed, &expected);
     // 5 standard deviations, with a fixed seed.

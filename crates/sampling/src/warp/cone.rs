@@ -62,8 +62,8 @@ impl<T: Real> Cone<T> {
     /// ```
     ///
     /// # Precision
-    /// 6 ulp of x and y at any size of the cone; z likewise, at the rim of a hemisphere too, because
-    /// `1 − r²` comes from the uniforms.
+    /// 6 ulp of x and y at any size of the cone; z likewise, at the rim of a hemisphere too,
+    /// because `1 − r²` comes from the uniforms.
     ///
     /// # Source
     /// The concentric map of Shirley and Chiu 1997, section 3, generalised from the hemisphere.

@@ -78,7 +78,8 @@ mod tests {
     use crate::testing::{check_density_on_sphere, check_inverse, check_jacobian};
     use etendue_math::glam::{DVec3, Vec3 as Vec3f};
 
-    /// Uniforms (exact `f32` numbers), direction and density of the polar map, computed at 60 digits.
+    /// Uniforms (exact `f32` numbers), direction and density of the polar map, computed at 60
+    /// digits.
     #[rustfmt::skip]
     #[allow(clippy::approx_constant, reason = "golden values are kept as computed")]
     const GOLDEN: [([f64; 2], [f64; 3], f64); 20] = [

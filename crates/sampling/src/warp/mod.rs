@@ -1,7 +1,7 @@
 //! Maps from the unit square, each with its inverse and its density.
 //!
-//! `from_square` maps uniforms in `[0, 1)²` to points or directions, `to_square` undoes it, `pdf` is
-//! the density of the results. Local directions have `z` along the axis.
+//! `from_square` maps uniforms in `[0, 1)²` to points or directions, `to_square` undoes it, `pdf`
+//! is the density of the results. Local directions have `z` along the axis.
 //!
 //! | module | support | measure | density |
 //! | --- | --- | --- | --- |

@@ -20,7 +20,8 @@ impl<T: Real> Rectangle<T> {
         self.corner + self.edges[0] * u + self.edges[1] * v
     }
 
-    /// The uniforms of a point: its coordinates in the (possibly oblique) edges, limited to `[0, 1)`.
+    /// The uniforms of a point: its coordinates in the (possibly oblique) edges, limited to
+    /// `[0, 1)`.
     ///
     /// A rectangle without area gives `[0, 0]`.
     #[inline]

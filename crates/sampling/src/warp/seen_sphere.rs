@@ -76,9 +76,9 @@ impl<T: Real> SeenSphere<T> {
     /// ```
     ///
     /// # Precision
-    /// From outside 8 ε of each unit vector at any distance: the normal is built from the angles, not as
-    /// the difference of two far points. The distance carries the rounding of `d − R`, a relative
-    /// error of about `ε d/|d − R|`, as does everything seen from just inside.
+    /// From outside 8 ε of each unit vector at any distance: the normal is built from the angles,
+    /// not as the difference of two far points. The distance carries the rounding of `d − R`, a
+    /// relative error of about `ε d/|d − R|`, as does everything seen from just inside.
     ///
     /// # Source
     /// The cone of the sphere, P. Shirley, C. Wang, "Monte Carlo Techniques for Direct Lighting
@@ -141,8 +141,8 @@ impl<T: Real> SeenSphere<T> {
     /// outside:  1/(2π(1 − cos θmax))          inside:  t²/(4πR² |n·ω|)
     /// ```
     ///
-    /// From outside it does not test whether `direction` hits: rounding would cut off the rim of far
-    /// spheres. The caller has intersected the sphere anyway.
+    /// From outside it does not test whether `direction` hits: rounding would cut off the rim of
+    /// far spheres. The caller has intersected the sphere anyway.
     #[inline]
     pub fn pdf(&self, direction: Vec3<T>) -> T {
         match &self.view {
@@ -201,8 +201,8 @@ mod tests {
         for radius in [0.5, 2.0, 2.9, 3.5, 6.0] {
             let sphere = seen(radius);
             let map = |u| sphere.from_square(u).unwrap().direction;
-            // Rotation into the frame, at most 2 ε, over a sine of at least 1/6; near the cone's rim
-            // and near the poles of the inside map slopes of up to 10.
+            // Rotation into the frame, at most 2 ε, over a sine of at least 1/6; near the cone's
+            // rim and near the poles of the inside map slopes of up to 10.
             check_inverse(map, |w| sphere.to_square(w), 256.0 * f64::EPSILON);
         }
     }

@@ -12,7 +12,8 @@ use super::rectangle::Rectangle;
 /// use etendue_math::glam::Vec3;
 /// use etendue_sampling::warp::{rectangle::Rectangle, spherical_rectangle::SphericalRectangle};
 /// // A face of the cube around the point: a sixth of 4π.
-/// let face = Rectangle { corner: Vec3::new(-1.0, -1.0, 1.0), edges: [Vec3::X * 2.0, Vec3::Y * 2.0] };
+/// let edges = [Vec3::X * 2.0, Vec3::Y * 2.0];
+/// let face = Rectangle { corner: Vec3::new(-1.0, -1.0, 1.0), edges };
 /// let seen = SphericalRectangle::<f32>::new(face).unwrap();
 /// assert!((seen.solid_angle() - 4.0 / 6.0 * std::f32::consts::PI).abs() < 1e-6);
 /// assert!(seen.from_square([0.2, 0.9]).z > 0.5);
@@ -36,10 +37,10 @@ pub struct SphericalRectangle<T: Real> {
 impl<T: Real> SphericalRectangle<T> {
     /// The rectangle seen from the origin: its corner is relative to the seeing point.
     ///
-    /// `None` where [`Rectangle`]'s own map should be used: below √ε sr (3.5e-4 in `f32`), where the
-    /// rectangle may be as narrow as the rounding of directions; above 6.22 sr or with the point in the
-    /// rectangle's plane; for edges that are not at right angles (to 1e-3), degenerate rectangles, NaN
-    /// and infinity.
+    /// `None` where [`Rectangle`]'s own map should be used: below √ε sr (3.5e-4 in `f32`), where
+    /// the rectangle may be as narrow as the rounding of directions; above 6.22 sr or with the
+    /// point in the rectangle's plane; for edges that are not at right angles (to 1e-3), degenerate
+    /// rectangles, NaN and infinity.
     ///
     /// # Source
     /// Ureña, Fajardo and King, "An Area-Preserving Parametrization for Spherical Rectangles",
@@ -77,7 +78,7 @@ impl<T: Real> SphericalRectangle<T> {
     /// Solid angle Ω in sr.
     ///
     /// ```text
-    /// tan(Ωᵢ/2) = z·w·h / (|a||b||c| + (a·b)|c| + (b·c)|a| + (c·a)|b|)      for each half, Ω = Ω₁ + Ω₂
+    /// tan(Ωᵢ/2) = z·w·h / (|a||b||c| + (a·b)|c| + (b·c)|a| + (c·a)|b|),   Ω = Ω₁ + Ω₂
     /// ```
     ///
     /// # Precision
@@ -102,8 +103,8 @@ impl<T: Real> SphericalRectangle<T> {
     ///
     /// # Source
     /// Ureña et al. 2013, section 4. Departure: inner angles by arc sines instead of arc cosines,
-    /// so that the 2π of their sum drops out before anything is rounded, and the square root in the form
-    /// whose terms have one sign.
+    /// so that the 2π of their sum drops out before anything is rounded, and the square root in the
+    /// form whose terms have one sign.
     #[inline]
     pub fn from_square(&self, [u, v]: [T; 2]) -> Vec3<T> {
         let [n0, n1] = self.normals;
@@ -167,7 +168,8 @@ fn hypot<T: Real>(a: T, b: T) -> T {
     (a * a + b * b).sqrt()
 }
 
-/// `asin(n₀ c) + asin(n₁ c)` given `n₀ + n₁`, without cancellation where the two have opposite signs.
+/// `asin(n₀ c) + asin(n₁ c)` given `n₀ + n₁`, without cancellation where the two have opposite
+/// signs.
 #[inline]
 fn sum_of_arc_sines<T: Real>([n0, n1]: [T; 2], sum: T, c: T) -> T {
     let (a, b) = (n0 * c, n1 * c);

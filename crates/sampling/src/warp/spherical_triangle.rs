@@ -20,7 +20,8 @@ use super::{accurate_cross, into_unit};
 pub struct SphericalTriangle<T: Real> {
     vertices: [Vec3<T>; 3],
     directions: [Vec3<T>; 3],
-    /// `|det(v₀, v₁, v₂)|`, `v₂·(v₀ + v₁)` and `1 + v₀·v₁`: tan(Ω/2) = det / (the sum of the others).
+    /// `|det(v₀, v₁, v₂)|`, `v₂·(v₀ + v₁)` and `1 + v₀·v₁`: tan(Ω/2) = det / (the sum of the
+    /// others).
     volume: T,
     across: T,
     base: T,
@@ -35,17 +36,19 @@ impl<T: Real> SphericalTriangle<T> {
     /// ```
     ///
     /// `None` where sampling by solid angle does not pay or cannot be trusted, and
-    /// [`triangle`](super::triangle) should be used: below √ε sr (3.5e-4 in `f32`), where the triangle
-    /// spans about ε^¼ and the rounding of directions would show; above 6.22 sr, where the point all
-    /// but lies in the triangle; for vertices at the point, degenerate triangles, NaN and infinity.
+    /// [`triangle`](super::triangle) should be used: below √ε sr (3.5e-4 in `f32`), where the
+    /// triangle spans about ε^¼ and the rounding of directions would show; above 6.22 sr, where the
+    /// point all but lies in the triangle; for vertices at the point, degenerate triangles, NaN and
+    /// infinity.
     ///
     /// # Precision
     /// Relative error of Ω about 8 ε at any admitted size, divided by the sines of the angle under
-    /// which the triangle's plane is seen and of its own smallest angle: what rounding of the vertices
-    /// does anyway. The volume comes from the edges by differences of products.
+    /// which the triangle's plane is seen and of its own smallest angle: what rounding of the
+    /// vertices does anyway. The volume comes from the edges by differences of products.
     ///
     /// # Source
-    /// Van Oosterom and Strackee, "The Solid Angle of a Plane Triangle", 1983; upper bound as in pbrt-v4.
+    /// Van Oosterom and Strackee, "The Solid Angle of a Plane Triangle", 1983; upper bound as in
+    /// pbrt-v4.
     #[inline]
     pub fn new(vertices: [Vec3<T>; 3]) -> Option<Self> {
         let lengths = vertices.map(Vector3::length);
@@ -85,8 +88,8 @@ impl<T: Real> SphericalTriangle<T> {
     /// A direction uniform in solid angle within the triangle.
     ///
     /// ```text
-    /// v₂' on the arc v₀v₂ such that (v₀, v₁, v₂') has solid angle σ = u₀ Ω:
-    ///     o = (det cos σ/2 − v₂·(v₀+v₁) sin σ/2) v₀ + (1 + v₀·v₁) sin σ/2 v₂,   v₂' = v₀ reflected in o
+    /// v₂' on the arc v₀v₂ such that (v₀, v₁, v₂') has solid angle σ = u₀ Ω: v₀ reflected in
+    ///     o = (det cos σ/2 − v₂·(v₀ + v₁) sin σ/2) v₀ + (1 + v₀·v₁) sin σ/2 v₂
     /// w on the arc v₁v₂' with 1 − v₁·w = u₁ (1 − v₁·v₂')
     /// ```
     ///
@@ -96,8 +99,8 @@ impl<T: Real> SphericalTriangle<T> {
     /// # Source
     /// J. Arvo, "Stratified Sampling of Spherical Triangles", SIGGRAPH 1995, in the form of
     /// C. Peters, "BRDF Importance Sampling for Polygonal Lights", SIGGRAPH 2021, section 4.1,
-    /// whose terms do not cancel for small triangles. Departure: `1 − v₁·v₂'` from the difference of
-    /// the two vectors.
+    /// whose terms do not cancel for small triangles. Departure: `1 − v₁·v₂'` from the difference
+    /// of the two vectors.
     #[inline]
     pub fn from_square(&self, [u, v]: [T; 2]) -> Vec3<T> {
         let [v0, v1, v2] = self.directions;
@@ -196,19 +199,34 @@ mod tests {
         }
     }
 
+    /// Nearly all of a hemisphere, 5.3 sr.
+    const WIDE: [DVec3; 3] =
+        [DVec3::new(1.0, 0.0, 0.1), DVec3::new(-0.5, 0.9, 0.1), DVec3::new(-0.5, -0.9, 0.1)];
+    /// 1.5 long and 0.01 wide.
+    const THIN: [DVec3; 3] =
+        [DVec3::new(-0.7, 0.5, 1.0), DVec3::new(0.8, 0.5, 1.0), DVec3::new(-0.6, 0.51, 1.0)];
+
     #[test]
     fn density_is_that_of_the_map() {
-        let shape = SphericalTriangle::<f64>::new(LARGE).unwrap();
-        check_jacobian(|u| shape.from_square(u), |_| shape.pdf());
-        let pdf = |w| if hits(LARGE, w) { shape.pdf() } else { 0.0 };
-        check_density_on_sphere(|u| shape.from_square(u), pdf);
+        for vertices in [LARGE, WIDE, THIN, [THIN[1], THIN[2], THIN[0]]] {
+            let shape = SphericalTriangle::<f64>::new(vertices).unwrap();
+            check_jacobian(|u| shape.from_square(u), |_| shape.pdf());
+        }
+        for vertices in [LARGE, WIDE] {
+            let shape = SphericalTriangle::<f64>::new(vertices).unwrap();
+            let pdf = |w| if hits(vertices, w) { shape.pdf() } else { 0.0 };
+            check_density_on_sphere(|u| shape.from_square(u), pdf);
+        }
     }
 
     #[test]
     fn inverse_undoes_the_map() {
-        let shape = SphericalTriangle::<f64>::new(LARGE).unwrap();
-        // Near v₁, u₀ is an angle around it: √ε of all points lie within that distance.
-        check_inverse(|u| shape.from_square(u), |w| shape.to_square(w), 1e-12);
+        for vertices in [LARGE, WIDE, THIN] {
+            let shape = SphericalTriangle::<f64>::new(vertices).unwrap();
+            // u₀ is an angle around v₁, divided by the triangle's own angle there (0.007 of the
+            // thin one); a thousand points come as close to v₁ as 0.03.
+            check_inverse(|u| shape.from_square(u), |w| shape.to_square(w), 1e-12);
+        }
     }
 
     #[test]
