@@ -3,16 +3,23 @@
 use alloc::vec::Vec;
 
 use etendue_math::glam::{Vec2, Vec3};
+use etendue_math::{Frame, Vector3};
+
+use super::surface::LocalSurface;
+use super::triangle::{self, Corners};
+use super::{Aabb, ShapeSample, Transform};
 
 /// A triangle mesh whose indices and coordinates have been checked.
 ///
-/// The front of a triangle is the side from which its vertices run anticlockwise.
+/// The front of a triangle is the side to which its vertex normals point; without normals, the
+/// side from which its vertices run anticlockwise. Flipping exchanges front and back.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct TriangleMesh {
     positions: Vec<Vec3>,
     normals: Vec<Vec3>,
     uvs: Vec<Vec2>,
     triangles: Vec<[u32; 3]>,
+    flipped: bool,
 }
 
 /// Why a mesh is refused.
@@ -78,7 +85,7 @@ impl TriangleMesh {
                 return Err(MeshError::IndexOutOfRange { triangle, vertex, vertices });
             }
         }
-        Ok(Self { positions, normals, uvs, triangles })
+        Ok(Self { positions, normals, uvs, triangles, flipped: false })
     }
 
     /// Vertex positions.
@@ -99,6 +106,109 @@ impl TriangleMesh {
     /// Three vertex indices per triangle.
     pub fn triangles(&self) -> &[[u32; 3]] {
         &self.triangles
+    }
+
+    /// The same mesh with front and back exchanged.
+    pub fn flipped(self) -> Self {
+        Self { flipped: !self.flipped, ..self }
+    }
+
+    /// The mesh with positions moved by a transform and normals by its transposed inverse.
+    ///
+    /// The order of the vertices stays, so mirroring turns a mesh without normals inside out, as
+    /// it does in Mitsuba.
+    ///
+    /// # Errors
+    /// A vertex that leaves the range of `f32`.
+    pub fn transformed(mut self, transform: &Transform) -> Result<Self, MeshError> {
+        for p in &mut self.positions {
+            *p = transform.point(*p);
+        }
+        for n in &mut self.normals {
+            *n = transform.normal(*n);
+        }
+        match self.positions.iter().position(|p| !p.is_finite()) {
+            Some(vertex) => Err(MeshError::NotFinite { attribute: "position", vertex }),
+            None => Ok(self),
+        }
+    }
+
+    /// The corners of a triangle, `triangle < self.triangles().len()`.
+    pub(crate) fn corners(&self, triangle: u32) -> Corners {
+        self.triangles[triangle as usize].map(|v| self.positions[v as usize])
+    }
+
+    pub(crate) fn bounds(&self) -> Aabb {
+        Aabb::from_points(self.triangles.iter().flatten().map(|&v| self.positions[v as usize]))
+    }
+
+    /// The point of a triangle with the barycentric weights `b₁, b₂` of its later corners.
+    ///
+    /// ```text
+    /// ∂p/∂u = (Δv₂ e₁ − Δv₁ e₂)/D,  ∂p/∂v = (Δu₁ e₂ − Δu₂ e₁)/D,  D = Δu₁ Δv₂ − Δv₁ Δu₂
+    /// ```
+    ///
+    /// Without texture coordinates, `(u, v) = (b₁, b₂)` and the tangents are any two that are
+    /// orthogonal to the normal.
+    ///
+    /// # Source
+    /// Mitsuba 3, `Mesh::compute_surface_interaction`. There, vertex normals on the other side of
+    /// the geometric one leave the two at odds; here the geometric normal follows.
+    pub(crate) fn surface(&self, triangle: u32, [b1, b2]: [f32; 2]) -> LocalSurface {
+        let indices = self.triangles[triangle as usize].map(|v| v as usize);
+        let corners = indices.map(|v| self.positions[v]);
+        let (position, error) = triangle::point(&corners, b1, b2);
+        let winding = triangle::normal(&corners).unwrap_or(Vec3::Z);
+        let b0 = 1.0 - b1 - b2;
+        let (mut normal, mut shading_normal) = (winding, winding);
+        if !self.normals.is_empty() {
+            let [n0, n1, n2] = indices.map(|v| self.normals[v]);
+            // One decision per triangle: the front must not change within it.
+            if winding.dot(n0 + n1 + n2) < 0.0 {
+                normal = -winding;
+            }
+            shading_normal = Vector3::try_normalize(n0 * b0 + n1 * b1 + n2 * b2).unwrap_or(normal);
+        }
+        let (mut uv, mut tangents) = ([b1, b2], None);
+        if !self.uvs.is_empty() {
+            let [t0, t1, t2] = indices.map(|v| self.uvs[v]);
+            uv = (t0 * b0 + t1 * b1 + t2 * b2).to_array();
+            let (d1, d2) = (t1 - t0, t2 - t0);
+            let (e1, e2) = (corners[1] - corners[0], corners[2] - corners[0]);
+            let scale = 1.0 / (d1.x * d2.y - d1.y * d2.x);
+            let du = (e1 * d2.y - e2 * d1.y) * scale;
+            let dv = (e2 * d1.x - e1 * d2.x) * scale;
+            tangents = (du.is_finite() && dv.is_finite()).then_some((du, dv));
+        }
+        let (dp_du, dp_dv) = tangents.unwrap_or_else(|| {
+            let frame = Frame::<f32>::from_normal(normal);
+            (frame.s, frame.t)
+        });
+        let side = if self.flipped { -1.0 } else { 1.0 };
+        LocalSurface {
+            position,
+            error,
+            normal: normal * side,
+            shading_normal: shading_normal * side,
+            uv,
+            dp_du,
+            dp_dv,
+            primitive: triangle,
+            barycentric: [b1, b2],
+        }
+    }
+
+    /// The same point as a sample of the triangle's area.
+    pub(crate) fn at(&self, triangle: u32, barycentric: [f32; 2]) -> ShapeSample {
+        let s = self.surface(triangle, barycentric);
+        let area = triangle::area(&self.corners(triangle));
+        ShapeSample {
+            position: s.position,
+            error: s.error,
+            normal: s.normal,
+            uv: s.uv,
+            pdf_area: if area > 0.0 { 1.0 / area } else { 0.0 },
+        }
     }
 }
 

@@ -1,5 +1,41 @@
 //! Shapes, their acceleration structure, and what a ray finds.
+//!
+//! A [`GeometryBuilder`] collects shapes, groups of shapes and instances of groups, and builds the
+//! [`Geometry`] that rays are traced through. What is behind [`Geometry::intersect`] and
+//! [`Geometry::occluded`] is private and may change.
+//!
+//! No function here knows an ε in units of the scene: rays start beside the surface they leave by a
+//! bound on the error of the computed point ([`offset_point`]).
 
+mod aabb;
+mod builder;
+mod bvh;
+mod cube;
+mod cylinder;
+mod disk;
 mod mesh;
+mod offset;
+mod ray;
+mod rectangle;
+mod sample;
+mod scene;
+mod shape;
+mod sphere;
+mod surface;
+mod transform;
+mod triangle;
 
+pub use aabb::Aabb;
+pub use builder::{GeometryBuilder, GroupId};
+pub use cylinder::Cylinder;
+pub use disk::Disk;
 pub use mesh::{MeshError, TriangleMesh};
+pub use offset::offset_point;
+pub use ray::Ray;
+pub use rectangle::Rectangle;
+pub use sample::ShapeSample;
+pub use scene::{Geometry, GeometryStatistics, Hit};
+pub use shape::{Shape, ShapeError, ShapeId};
+pub use sphere::Sphere;
+pub use surface::SurfacePoint;
+pub use transform::{Transform, TransformError};

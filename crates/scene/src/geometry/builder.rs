@@ -1,0 +1,81 @@
+//! Collecting shapes into a geometry.
+
+use alloc::vec::Vec;
+use core::ops::Range;
+
+use super::{Geometry, Shape, ShapeId, Transform};
+
+/// A group of shapes that instances refer to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct GroupId(pub(super) u32);
+
+/// Collects shapes, groups and instances.
+///
+/// # Examples
+/// ```
+/// use etendue_math::glam::{DVec3, Vec3};
+/// use etendue_scene::geometry::{GeometryBuilder, Ray, Shape, Sphere, Transform};
+///
+/// let mut builder = GeometryBuilder::new();
+/// let unit = Shape::Sphere(Sphere::new(DVec3::ZERO, 1.0, &Transform::IDENTITY)?);
+/// let (group, shapes) = builder.add_group(vec![unit]);
+/// builder.add_instance(group, Transform::translate(DVec3::new(0.0, 0.0, 5.0))?);
+/// let geometry = builder.build();
+///
+/// let ray = Ray::new(Vec3::ZERO, Vec3::Z);
+/// let hit = geometry.intersect(&ray).expect("the sphere is straight ahead");
+/// assert_eq!((hit.t, hit.shape), (4.0, shapes[0]));
+/// let point = geometry.surface_point(&ray, &hit);
+/// assert_eq!(point.normal, -Vec3::Z);
+/// assert!(!geometry.occluded(&point.spawn(-Vec3::Z)));
+/// # Ok::<(), etendue_scene::geometry::ShapeError>(())
+/// ```
+#[derive(Clone, Debug, Default)]
+pub struct GeometryBuilder {
+    /// Every shape, those of groups included.
+    pub(super) shapes: Vec<Shape>,
+    /// The shapes that are not part of a group.
+    pub(super) top_level: Vec<ShapeId>,
+    /// The shapes of each group: groups are added whole.
+    pub(super) groups: Vec<Range<u32>>,
+    pub(super) instances: Vec<(GroupId, Transform)>,
+}
+
+impl GeometryBuilder {
+    /// A builder of nothing.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Adds a shape in world space.
+    pub fn add_shape(&mut self, shape: Shape) -> ShapeId {
+        let id = ShapeId(self.shapes.len() as u32);
+        self.shapes.push(shape);
+        self.top_level.push(id);
+        id
+    }
+
+    /// Adds a group of shapes, invisible until instances refer to it; returns the group and the ids
+    /// of its shapes in order.
+    pub fn add_group(&mut self, shapes: Vec<Shape>) -> (GroupId, Vec<ShapeId>) {
+        let start = self.shapes.len() as u32;
+        self.shapes.extend(shapes);
+        let range = start..self.shapes.len() as u32;
+        self.groups.push(range.clone());
+        (GroupId(self.groups.len() as u32 - 1), range.map(ShapeId).collect())
+    }
+
+    /// Places a group in the world; returns the number that [`Hit::instance`](super::Hit::instance)
+    /// gives for it.
+    pub fn add_instance(&mut self, group: GroupId, transform: Transform) -> u32 {
+        self.instances.push((group, transform));
+        self.instances.len() as u32 - 1
+    }
+
+    /// Builds the acceleration structures, on all cores with the feature `std`.
+    ///
+    /// The result does not depend on the number of threads.
+    pub fn build(self) -> Geometry {
+        Geometry::build(self)
+    }
+}

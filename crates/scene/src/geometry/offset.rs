@@ -1,0 +1,63 @@
+//! Leaving a surface without hitting it again.
+
+use etendue_math::glam::Vec3;
+
+/// The point from which a ray leaves a surface: moved along the normal, to the side of `direction`,
+/// by more than the error of the computed position, and then rounded away from the surface.
+///
+/// ```text
+/// d = |n.x| e.x + |n.y| e.y + |n.z| e.z
+/// p' = p ± d n,   each coordinate then one step further in the direction of the shift
+/// ```
+///
+/// - `position`: computed point, `error`: absolute bound on its error per axis (non-negative).
+/// - `normal`: unit geometric normal. - `direction`: where the ray goes, any length.
+///
+/// # Source
+/// Pharr, Jakob, Humphreys, "Physically Based Rendering", 4th ed., section 6.8.6.
+#[inline]
+pub fn offset_point(position: Vec3, error: Vec3, normal: Vec3, direction: Vec3) -> Vec3 {
+    let distance = normal.abs().dot(error);
+    let shift = if direction.dot(normal) < 0.0 { -distance } else { distance };
+    let moved = position + normal * shift;
+    Vec3::new(
+        away(moved.x, normal.x * shift),
+        away(moved.y, normal.y * shift),
+        away(moved.z, normal.z * shift),
+    )
+}
+
+/// The next float in the direction of a shift; unchanged where there was none.
+#[inline]
+fn away(x: f32, shift: f32) -> f32 {
+    if shift > 0.0 {
+        x.next_up()
+    } else if shift < 0.0 {
+        x.next_down()
+    } else {
+        x
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_offset_is_to_the_side_of_the_direction_and_at_least_the_error() {
+        let p = Vec3::new(10.0, -20.0, 30.0);
+        let n = Vec3::new(0.6, 0.0, -0.8);
+        let e = p.abs() * f32::EPSILON;
+        for (d, side) in [(n, 1.0), (-n, -1.0), (n + Vec3::Y * 9.0, 1.0)] {
+            let q = offset_point(p, e, n, d);
+            let shift = (q - p).as_dvec3().dot(n.as_dvec3()) * side;
+            assert!(shift >= f64::from(n.abs().dot(e)), "{shift}");
+        }
+    }
+
+    #[test]
+    fn coordinates_along_which_the_normal_vanishes_stay_the_same() {
+        let q = offset_point(Vec3::ONE, Vec3::splat(1e-6), Vec3::Z, Vec3::X);
+        assert_eq!((q.x, q.y), (1.0, 1.0));
+    }
+}

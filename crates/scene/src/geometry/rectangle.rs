@@ -1,0 +1,98 @@
+//! Rectangles.
+
+use etendue_math::Vector3;
+use etendue_math::glam::Vec3;
+
+use super::surface::LocalSurface;
+use super::triangle::{self, Corners};
+use super::{Aabb, ShapeError, ShapeSample, Transform};
+
+/// The square `[−1, 1]²` in the plane z = 0, placed by a transform; a parallelogram where that
+/// shears. The front is on the side of +z, texture coordinates run over `[0, 1]²`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rectangle {
+    /// Corners at (u, v) = (0, 0), (1, 0), (1, 1), (0, 1).
+    corners: [Vec3; 4],
+    normal: Vec3,
+}
+
+impl Rectangle {
+    /// The square placed by a transform.
+    ///
+    /// # Errors
+    /// A corner beyond the range of `f32`.
+    pub fn new(transform: &Transform) -> Result<Self, ShapeError> {
+        let corners = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]]
+            .map(|[x, y]| transform.point(Vec3::new(x, y, 0.0)));
+        if corners.iter().any(|c| !c.is_finite()) {
+            return Err(ShapeError::OutOfRange);
+        }
+        Ok(Self { corners, normal: transform.normal(Vec3::Z) })
+    }
+
+    /// The same rectangle with front and back exchanged.
+    pub fn flipped(self) -> Self {
+        Self { normal: -self.normal, ..self }
+    }
+
+    /// The corners at (u, v) = (0, 0), (1, 0), (1, 1), (0, 1).
+    pub fn corners(&self) -> &[Vec3; 4] {
+        &self.corners
+    }
+
+    /// The area.
+    pub fn area(&self) -> f32 {
+        triangle::area(&self.half(0).0) + triangle::area(&self.half(1).0)
+    }
+
+    /// One of the two triangles that rays are tested against, and its texture coordinates.
+    pub(crate) fn half(&self, half: u32) -> (Corners, [[f32; 2]; 3]) {
+        let [a, b, c, d] = self.corners;
+        match half {
+            0 => ([a, b, c], [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]]),
+            _ => ([a, c, d], [[0.0, 0.0], [1.0, 1.0], [0.0, 1.0]]),
+        }
+    }
+
+    pub(crate) fn bounds(&self) -> Aabb {
+        Aabb::from_points(self.corners)
+    }
+
+    pub(crate) fn surface(&self, half: u32, [b1, b2]: [f32; 2]) -> LocalSurface {
+        let (corners, [uv0, uv1, uv2]) = self.half(half);
+        let (position, error) = triangle::point(&corners, b1, b2);
+        let b0 = 1.0 - b1 - b2;
+        LocalSurface {
+            position,
+            error,
+            normal: self.normal,
+            shading_normal: self.normal,
+            uv: core::array::from_fn(|i| b0 * uv0[i] + b1 * uv1[i] + b2 * uv2[i]),
+            dp_du: self.corners[1] - self.corners[0],
+            dp_dv: self.corners[3] - self.corners[0],
+            primitive: 0,
+            barycentric: [b1, b2],
+        }
+    }
+
+    /// The point with texture coordinates `(u, v)`.
+    pub(crate) fn at(&self, [u, v]: [f32; 2]) -> ShapeSample {
+        let s = if u >= v { self.surface(0, [u - v, v]) } else { self.surface(1, [u, v - u]) };
+        ShapeSample {
+            position: s.position,
+            error: s.error,
+            normal: s.normal,
+            uv: [u, v],
+            pdf_area: 1.0 / self.area(),
+        }
+    }
+
+    /// Corner and edges if the edges are orthogonal.
+    pub(crate) fn right_angled(&self) -> Option<(Vec3, [Vec3; 2])> {
+        let [a, b, _, d] = self.corners;
+        let (x, y) = (b - a, d - a);
+        // What rounding the corners leaves of a right angle, with room to spare.
+        let tolerance = 1e-5 * Vector3::length(x) * Vector3::length(y);
+        (x.dot(y).abs() <= tolerance).then_some((a, [x, y]))
+    }
+}

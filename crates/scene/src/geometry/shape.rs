@@ -1,0 +1,193 @@
+//! The shapes a scene is made of.
+
+use etendue_math::glam::Vec3;
+
+use super::sample::solid_angle_density;
+use super::surface::LocalSurface;
+use super::{
+    Aabb, Cylinder, Disk, Hit, MeshError, Ray, Rectangle, ShapeSample, Sphere, SurfacePoint,
+    TransformError, TriangleMesh, triangle,
+};
+
+/// A shape of a scene, by its place in the scene's list.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct ShapeId(pub u32);
+
+/// A surface. Parameterisations and normals are those of Mitsuba 3.
+///
+/// Points are drawn primitive by primitive: the triangles of a mesh, or the one surface of the
+/// other shapes. A primitive that does not exist has area 0 and is never hit.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Shape {
+    /// Triangles.
+    Mesh(TriangleMesh),
+    /// A sphere.
+    Sphere(Sphere),
+    /// A rectangle or parallelogram.
+    Rectangle(Rectangle),
+    /// A disk or ellipse.
+    Disk(Disk),
+    /// A cylinder without caps.
+    Cylinder(Cylinder),
+}
+
+/// Why a shape is refused.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum ShapeError {
+    /// The radius is not a positive finite number.
+    #[error("the radius is not a positive number")]
+    BadRadius,
+    /// The end points of a cylinder coincide.
+    #[error("the end points of the cylinder coincide")]
+    NoAxis,
+    /// The transform would change the kind of shape: an ellipsoid, an oblique cylinder.
+    #[error("the transform scales this shape unequally or shears it")]
+    NonUniformScale,
+    /// A coordinate leaves the range of `f32`.
+    #[error("the transformed shape is out of range")]
+    OutOfRange,
+    /// The transform itself is refused.
+    #[error(transparent)]
+    Transform(#[from] TransformError),
+    /// The mesh is refused.
+    #[error(transparent)]
+    Mesh(#[from] MeshError),
+}
+
+impl Shape {
+    /// A box that holds the shape.
+    pub fn bounds(&self) -> Aabb {
+        match self {
+            Self::Mesh(s) => s.bounds(),
+            Self::Sphere(s) => s.bounds(),
+            Self::Rectangle(s) => s.bounds(),
+            Self::Disk(s) => s.bounds(),
+            Self::Cylinder(s) => s.bounds(),
+        }
+    }
+
+    /// The same shape with front and back exchanged.
+    pub fn flipped(self) -> Self {
+        match self {
+            Self::Mesh(s) => Self::Mesh(s.flipped()),
+            Self::Sphere(s) => Self::Sphere(s.flipped()),
+            Self::Rectangle(s) => Self::Rectangle(s.flipped()),
+            Self::Disk(s) => Self::Disk(s.flipped()),
+            Self::Cylinder(s) => Self::Cylinder(s.flipped()),
+        }
+    }
+
+    /// How many primitives points can be drawn on: the triangles of a mesh, 1 otherwise.
+    pub fn primitive_count(&self) -> u32 {
+        match self {
+            Self::Mesh(mesh) => mesh.triangles().len() as u32,
+            _ => 1,
+        }
+    }
+
+    /// The area of a primitive; 0 for one that does not exist.
+    pub fn primitive_area(&self, primitive: u32) -> f32 {
+        if primitive >= self.primitive_count() {
+            return 0.0;
+        }
+        match self {
+            Self::Mesh(mesh) => triangle::area(&mesh.corners(primitive)),
+            Self::Sphere(s) => s.area(),
+            Self::Rectangle(s) => s.area(),
+            Self::Disk(s) => s.area(),
+            Self::Cylinder(s) => s.area(),
+        }
+    }
+
+    /// The area of all primitives, summed in `f64`.
+    pub fn area_total(&self) -> f32 {
+        (0..self.primitive_count()).map(|i| f64::from(self.primitive_area(i))).sum::<f64>() as f32
+    }
+
+    /// A point uniform over the area of a primitive, from two uniforms in `[0, 1)`; `None` for a
+    /// primitive that does not exist or has no area.
+    pub fn sample_area(&self, primitive: u32, u: [f32; 2]) -> Option<ShapeSample> {
+        if !(self.primitive_area(primitive) > 0.0) {
+            return None;
+        }
+        Some(match self {
+            Self::Mesh(mesh) => mesh.at(primitive, triangle::uniform(u)),
+            Self::Sphere(s) => s.sample_area(u),
+            Self::Rectangle(s) => s.at(u),
+            Self::Disk(s) => s.sample_area(u),
+            Self::Cylinder(s) => s.sample_area(u),
+        })
+    }
+
+    /// A point of a primitive drawn for a reference point that it illuminates, and its density with
+    /// respect to solid angle there; `None` where nothing can be drawn.
+    ///
+    /// The sample may face away from the reference point or lie below its horizon.
+    pub fn sample_from(
+        &self,
+        primitive: u32,
+        reference: Vec3,
+        u: [f32; 2],
+    ) -> Option<(ShapeSample, f32)> {
+        if let Self::Sphere(sphere) = self {
+            return if primitive == 0 { sphere.sample_from(reference, u) } else { None };
+        }
+        let s = self.sample_area(primitive, u)?;
+        let pdf = solid_angle_density(s.pdf_area, reference, s.position, s.normal);
+        (pdf > 0.0).then_some((s, pdf))
+    }
+
+    /// The density, with respect to solid angle at `reference`, with which
+    /// [`sample_from`](Self::sample_from) draws a point of this shape on its primitive
+    /// `point.primitive`.
+    pub fn pdf_from(&self, reference: Vec3, point: &SurfacePoint) -> f32 {
+        if let Self::Sphere(sphere) = self {
+            return sphere.pdf_from(reference, point.position, point.normal);
+        }
+        let area = self.primitive_area(point.primitive);
+        if area > 0.0 {
+            solid_angle_density(1.0 / area, reference, point.position, point.normal)
+        } else {
+            0.0
+        }
+    }
+
+    /// Where a ray meets a shape that is not made of triangles.
+    pub(crate) fn intersect_quadric(&self, ray: &Ray) -> Option<f32> {
+        match self {
+            Self::Sphere(s) => s.intersect(ray),
+            Self::Disk(s) => s.intersect(ray),
+            Self::Cylinder(s) => s.intersect(ray),
+            Self::Mesh(_) | Self::Rectangle(_) => None,
+        }
+    }
+
+    /// The triangles that rays are tested against, numbered as in [`Hit::primitive`].
+    pub(crate) fn triangle_count(&self) -> u32 {
+        match self {
+            Self::Mesh(mesh) => mesh.triangles().len() as u32,
+            Self::Rectangle(_) => 2,
+            _ => 0,
+        }
+    }
+
+    /// One of these triangles.
+    pub(crate) fn triangle(&self, index: u32) -> Option<triangle::Corners> {
+        match self {
+            Self::Mesh(mesh) => Some(mesh.corners(index)),
+            Self::Rectangle(s) => Some(s.half(index).0),
+            _ => None,
+        }
+    }
+
+    /// The point that a ray in the shape's own space has hit.
+    pub(crate) fn surface(&self, ray: &Ray, hit: &Hit) -> LocalSurface {
+        match self {
+            Self::Mesh(s) => s.surface(hit.primitive, hit.uv),
+            Self::Rectangle(s) => s.surface(hit.primitive, hit.uv),
+            Self::Sphere(s) => s.surface(ray, hit.t),
+            Self::Disk(s) => s.surface(ray),
+            Self::Cylinder(s) => s.surface(ray, hit.t),
+        }
+    }
+}

@@ -1,0 +1,251 @@
+//! Spheres.
+
+use etendue_math::glam::{DVec3, Vec3};
+use etendue_math::{Real, Vector3};
+
+use super::sample::solid_angle_density;
+use super::surface::LocalSurface;
+use super::{Aabb, Ray, ShapeError, ShapeSample, Transform};
+
+/// A sphere.
+///
+/// `u` is the azimuth about the local z axis over 2π, `v` the angle from +z over π. The front is
+/// outside unless the normals are flipped or the transform mirrors.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sphere {
+    center: DVec3,
+    radius: f64,
+    /// From the unit sphere.
+    to_world: Transform,
+    /// +1 where the front is outside, −1 where it is inside.
+    side: f64,
+}
+
+impl Sphere {
+    /// A sphere with centre and radius in local space, placed by a transform.
+    ///
+    /// # Errors
+    /// A radius that is not positive and finite; a transform that would make it an ellipsoid.
+    pub fn new(center: DVec3, radius: f64, transform: &Transform) -> Result<Self, ShapeError> {
+        if !(radius > 0.0 && radius.is_finite()) {
+            return Err(ShapeError::BadRadius);
+        }
+        let to_world = transform
+            .compose(&Transform::translate(center)?)?
+            .compose(&Transform::scale(DVec3::splat(radius))?)?;
+        let radius = uniform_scale(&to_world).ok_or(ShapeError::NonUniformScale)?;
+        Ok(Self {
+            center: to_world.affine().translation.as_vec3().as_dvec3(),
+            radius: f64::from(radius as f32),
+            side: if to_world.is_mirrored() { -1.0 } else { 1.0 },
+            to_world,
+        })
+    }
+
+    /// The same sphere with front and back exchanged.
+    pub fn flipped(self) -> Self {
+        Self { side: -self.side, ..self }
+    }
+
+    /// The centre in world space.
+    pub fn center(&self) -> Vec3 {
+        self.center.as_vec3()
+    }
+
+    /// The radius in world space.
+    pub fn radius(&self) -> f32 {
+        self.radius as f32
+    }
+
+    /// The surface area, `4 π r²`.
+    pub fn area(&self) -> f32 {
+        (4.0 * <f64 as Real>::PI * self.radius * self.radius) as f32
+    }
+
+    pub(crate) fn bounds(&self) -> Aabb {
+        // Rounding the corners of exact numbers: one step outwards makes up for it.
+        let (low, high) = (self.center - self.radius, self.center + self.radius);
+        let (low, high) = (low.as_vec3(), high.as_vec3());
+        Aabb {
+            min: Vec3::new(low.x.next_down(), low.y.next_down(), low.z.next_down()),
+            max: Vec3::new(high.x.next_up(), high.y.next_up(), high.z.next_up()),
+        }
+    }
+
+    /// Both roots of `|o + t d − c| = r` in ascending order, in `f64`.
+    ///
+    /// ```text
+    /// t_m = −(l·d)/(d·d),  l⊥ = l + t_m d,  h = √((r² − l⊥²)/(d·d)),  l = o − c
+    /// far root t_m ± h with the sign of t_m; the other one from their product (l² − r²)/(d·d)
+    /// ```
+    ///
+    /// # Source
+    /// The perpendicular form: Haines et al., "Precision Improvements for Ray/Sphere
+    /// Intersection", Ray Tracing Gems, 2019, chapter 7.
+    fn roots(&self, ray: &Ray) -> Option<(f64, f64)> {
+        let (o, d) = (ray.origin.as_dvec3(), ray.direction.as_dvec3());
+        let l = o - self.center;
+        let dd = d.dot(d);
+        let middle = -l.dot(d) / dd;
+        let perpendicular = l + d * middle;
+        let discriminant = self.radius * self.radius - perpendicular.dot(perpendicular);
+        // Written so that NaN is a miss.
+        if !(discriminant >= 0.0) {
+            return None;
+        }
+        let half = Real::sqrt(discriminant / dd);
+        let distance = Real::sqrt(l.dot(l));
+        let product = (distance - self.radius) * (distance + self.radius) / dd;
+        if middle > 0.0 {
+            let far = middle + half;
+            Some((product / far, far))
+        } else {
+            let near = middle - half;
+            let far = if near == 0.0 { 0.0 } else { product / near };
+            Some((near, far))
+        }
+    }
+
+    pub(crate) fn intersect(&self, ray: &Ray) -> Option<f32> {
+        let (near, far) = self.roots(ray)?;
+        [near as f32, far as f32].into_iter().find(|&t| t > 0.0 && t < ray.t_max)
+    }
+
+    pub(crate) fn surface(&self, ray: &Ray, t: f32) -> LocalSurface {
+        let (near, far) = self.roots(ray).unwrap_or((f64::from(t), f64::from(t)));
+        // The root in f64 that was rounded to `t`.
+        let t = f64::from(t);
+        let exact = if Real::abs(near - t) <= Real::abs(far - t) { near } else { far };
+        let hit = ray.origin.as_dvec3() + ray.direction.as_dvec3() * exact;
+        let outward = Vector3::try_normalize(hit - self.center).unwrap_or(DVec3::Z);
+        self.at(outward)
+    }
+
+    /// The point in an outward unit direction from the centre.
+    fn at(&self, outward: DVec3) -> LocalSurface {
+        let (position, error) =
+            round_point(self.center + outward * self.radius, self.center, self.radius);
+        let local = self.to_world.inverse_affine().transform_vector3(outward * self.radius);
+        let (theta, phi) = (
+            Real::atan2(Real::sqrt(local.x * local.x + local.y * local.y), local.z),
+            azimuth(local.y, local.x),
+        );
+        let ring = Real::sqrt(local.x * local.x + local.y * local.y);
+        let (sin, cos) = if ring > 0.0 { (local.y / ring, local.x / ring) } else { (0.0, 1.0) };
+        let to_world = self.to_world.affine();
+        let du = DVec3::new(-local.y, local.x, 0.0) * (2.0 * <f64 as Real>::PI);
+        let dv = DVec3::new(local.z * cos, local.z * sin, -ring) * <f64 as Real>::PI;
+        let normal = (outward * self.side).as_vec3();
+        LocalSurface {
+            position,
+            error,
+            normal,
+            shading_normal: normal,
+            uv: [
+                (phi * 0.5 * <f64 as Real>::FRAC_1_PI) as f32,
+                (theta * <f64 as Real>::FRAC_1_PI) as f32,
+            ],
+            dp_du: to_world.transform_vector3(du).as_vec3(),
+            dp_dv: to_world.transform_vector3(dv).as_vec3(),
+            primitive: 0,
+            barycentric: [0.0; 2],
+        }
+    }
+
+    fn sample_at(&self, outward: DVec3) -> ShapeSample {
+        let s = self.at(outward);
+        ShapeSample {
+            position: s.position,
+            error: s.error,
+            normal: s.normal,
+            uv: s.uv,
+            pdf_area: 1.0 / self.area(),
+        }
+    }
+
+    pub(crate) fn sample_area(&self, u: [f32; 2]) -> ShapeSample {
+        let z = 1.0 - 2.0 * f64::from(u[0]);
+        let ring = Real::safe_sqrt(1.0 - z * z);
+        let (sin, cos) = Real::sin_cos(2.0 * <f64 as Real>::PI * f64::from(u[1]));
+        self.sample_at(DVec3::new(ring * cos, ring * sin, z))
+    }
+
+    /// `1 − cos θ` of the cone that the sphere fills, and `sin² θ`; `None` from inside.
+    fn cone(&self, reference: Vec3) -> Option<(f64, f64)> {
+        let l = self.center - reference.as_dvec3();
+        let squared = l.dot(l);
+        let r2 = self.radius * self.radius;
+        if !(squared > r2) {
+            return None;
+        }
+        let sin2 = r2 / squared;
+        // 1 − √(1 − s²) without cancellation for far spheres.
+        Some((sin2 / (1.0 + Real::sqrt(1.0 - sin2)), sin2))
+    }
+
+    /// Uniform in the cone of directions that meet the sphere; uniform over the area from inside.
+    ///
+    /// # Source
+    /// The point on the sphere: Akalin, "Sampling the visible sphere", in the form of Pharr,
+    /// Jakob, Humphreys, "Physically Based Rendering", 4th ed., section 6.2.4.
+    pub(crate) fn sample_from(&self, reference: Vec3, u: [f32; 2]) -> Option<(ShapeSample, f32)> {
+        let Some((one_minus_cos, sin2_max)) = self.cone(reference) else {
+            let sample = self.sample_area(u);
+            let pdf =
+                solid_angle_density(sample.pdf_area, reference, sample.position, sample.normal);
+            return (pdf > 0.0).then_some((sample, pdf));
+        };
+        // t = 1 − cos θ keeps its digits where cos θ does not.
+        let t = f64::from(u[0]) * one_minus_cos;
+        let (sin2, cos) = (t * (2.0 - t), 1.0 - t);
+        let cos_alpha = sin2 / Real::sqrt(sin2_max) + cos * Real::safe_sqrt(1.0 - sin2 / sin2_max);
+        let sin_alpha = Real::safe_sqrt((1.0 - cos_alpha) * (1.0 + cos_alpha));
+        let towards = Vector3::try_normalize(reference.as_dvec3() - self.center)?;
+        let frame = etendue_math::Frame::<f64>::from_normal(towards);
+        let (sin, cos) = Real::sin_cos(2.0 * <f64 as Real>::PI * f64::from(u[1]));
+        let local = DVec3::new(sin_alpha * cos, sin_alpha * sin, cos_alpha);
+        Some((self.sample_at(frame.to_world(local)), cone_density(one_minus_cos)))
+    }
+
+    pub(crate) fn pdf_from(&self, reference: Vec3, position: Vec3, normal: Vec3) -> f32 {
+        match self.cone(reference) {
+            Some((one_minus_cos, _)) => cone_density(one_minus_cos),
+            None => solid_angle_density(1.0 / self.area(), reference, position, normal),
+        }
+    }
+}
+
+/// `1 / (2 π (1 − cos θ))`, or 0 where that overflows: nothing of such a sphere is visible.
+fn cone_density(one_minus_cos: f64) -> f32 {
+    let pdf = (0.5 * <f64 as Real>::FRAC_1_PI / one_minus_cos) as f32;
+    if pdf.is_finite() { pdf } else { 0.0 }
+}
+
+/// A point computed in `f64` as the sum of an anchor and a vector of length up to `reach`, rounded
+/// to `f32`, and the bound on its error: half a unit in the last place and the noise of `f64`.
+pub(crate) fn round_point(exact: DVec3, anchor: DVec3, reach: f64) -> (Vec3, Vec3) {
+    let noise = (anchor.abs() + reach) * (16.0 * f64::EPSILON);
+    let error = exact.abs() * (0.5 * f64::from(f32::EPSILON)) + noise;
+    // The factor covers the rounding of the bound itself.
+    (exact.as_vec3(), (error * (1.0 + 1e-6)).as_vec3())
+}
+
+/// The angle of `(x, y)` in `[0, 2π)`.
+pub(crate) fn azimuth(y: f64, x: f64) -> f64 {
+    let phi = Real::atan2(y, x);
+    if phi < 0.0 { phi + 2.0 * <f64 as Real>::PI } else { phi }
+}
+
+/// The common length of the columns if they are orthogonal and equally long.
+fn uniform_scale(t: &Transform) -> Option<f64> {
+    // Matrices in scene files have six or seven digits.
+    const TOLERANCE: f64 = 1e-4;
+    let m = &t.affine().matrix3;
+    let squared = m.x_axis.dot(m.x_axis);
+    let close = |a: f64, b: f64| Real::abs(a - b) <= TOLERANCE * squared;
+    let same = close(m.y_axis.dot(m.y_axis), squared) && close(m.z_axis.dot(m.z_axis), squared);
+    let orthogonal = close(m.x_axis.dot(m.y_axis), 0.0)
+        && close(m.x_axis.dot(m.z_axis), 0.0)
+        && close(m.y_axis.dot(m.z_axis), 0.0);
+    (same && orthogonal).then(|| Real::sqrt(squared))
+}

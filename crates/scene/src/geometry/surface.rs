@@ -1,0 +1,103 @@
+//! What a ray finds on a surface.
+
+use etendue_math::Frame;
+use etendue_math::glam::Vec3;
+
+use super::{Ray, ShapeId, ShapeSample, Transform, offset_point};
+
+/// A point on a surface, with all that shading needs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SurfacePoint {
+    /// Where it is, in world space.
+    pub position: Vec3,
+    /// Absolute bound on the error of the position, per axis.
+    pub error: Vec3,
+    /// Unit geometric normal, on the front side of the shape.
+    pub normal: Vec3,
+    /// Shading frame: `n` is the interpolated normal, `s` lies along `∂p/∂u`.
+    ///
+    /// It belongs to the shape's front side whatever side the ray came from.
+    pub shading: Frame<f32>,
+    /// Texture coordinates.
+    pub uv: [f32; 2],
+    /// Change of position with the first texture coordinate.
+    pub dp_du: Vec3,
+    /// Change of position with the second texture coordinate.
+    pub dp_dv: Vec3,
+    /// The shape.
+    pub shape: ShapeId,
+    /// The primitive within the shape, for [`Shape::pdf_from`](super::Shape::pdf_from).
+    pub primitive: u32,
+    /// Barycentric weights of the second and third corner of the triangle; 0 on other shapes.
+    pub barycentric: [f32; 2],
+}
+
+/// What a shape knows of a point on it, in its own space.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct LocalSurface {
+    pub(crate) position: Vec3,
+    pub(crate) error: Vec3,
+    pub(crate) normal: Vec3,
+    pub(crate) shading_normal: Vec3,
+    pub(crate) uv: [f32; 2],
+    pub(crate) dp_du: Vec3,
+    pub(crate) dp_dv: Vec3,
+    pub(crate) primitive: u32,
+    pub(crate) barycentric: [f32; 2],
+}
+
+impl LocalSurface {
+    /// The same point placed by an instance's transform.
+    pub(crate) fn transformed(self, t: &Transform) -> Self {
+        let position = t.point(self.position);
+        Self {
+            position,
+            error: t.round_trip_error(self.position, self.error, position),
+            normal: t.normal(self.normal),
+            shading_normal: t.normal(self.shading_normal),
+            dp_du: t.vector(self.dp_du),
+            dp_dv: t.vector(self.dp_dv),
+            ..self
+        }
+    }
+
+    pub(crate) fn on(self, shape: ShapeId) -> SurfacePoint {
+        SurfacePoint {
+            position: self.position,
+            error: self.error,
+            normal: self.normal,
+            shading: Frame::from_normal_and_tangent(self.shading_normal, self.dp_du),
+            uv: self.uv,
+            dp_du: self.dp_du,
+            dp_dv: self.dp_dv,
+            shape,
+            primitive: self.primitive,
+            barycentric: self.barycentric,
+        }
+    }
+}
+
+impl SurfacePoint {
+    /// A ray without end that leaves the surface to the side of `direction`.
+    #[inline]
+    pub fn spawn(&self, direction: Vec3) -> Ray {
+        Ray::new(self.offset_towards(direction), direction)
+    }
+
+    /// The segment from here to a point that lies on no surface, or was moved off it already.
+    #[inline]
+    pub fn spawn_to(&self, target: Vec3) -> Ray {
+        Ray::between(self.offset_towards(target - self.position), target)
+    }
+
+    /// The segment from here to a sampled point of another surface, which it does not touch.
+    #[inline]
+    pub fn spawn_to_sample(&self, sample: &ShapeSample) -> Ray {
+        self.spawn_to(sample.seen_from(self.position))
+    }
+
+    #[inline]
+    fn offset_towards(&self, direction: Vec3) -> Vec3 {
+        offset_point(self.position, self.error, self.normal, direction)
+    }
+}
