@@ -1,6 +1,7 @@
 //! Loaders for the files a scene refers to.
 
 mod file;
+mod image;
 mod lines;
 mod mesh_file;
 mod mtl;
@@ -13,6 +14,7 @@ pub mod srgb;
 mod warnings;
 
 pub use file::read_asset;
+pub use image::{Encoding, Image, load_image, parse_image};
 pub use mesh_file::{MeshFile, TexCoords};
 pub use mtl::{MtlMaterial, load_mtl, parse_mtl};
 pub use normals::smooth_normals;
