@@ -136,6 +136,13 @@ impl<C: Spectrum> ComplexIor<C> {
         Ok(Self { eta, k })
     }
 
+    /// Both parts moved into the domain, NaN to 0: for values read from textures.
+    #[inline]
+    pub fn clamped(eta: C, k: C) -> Self {
+        let clamp = |c: C| c.map(|x| x.clamp_to(C::Real::ZERO, C::Real::lit(1e4)));
+        Self { eta: clamp(eta), k: clamp(k) }
+    }
+
     /// The index whose Fresnel reflectance is 1 at every angle: η + ik = i, the perfect mirror.
     pub fn perfect() -> Self {
         Self { eta: C::black(), k: C::white() }
@@ -200,6 +207,12 @@ impl<T: Real> Sigma<T> {
     /// [`ParameterError`] where σ is negative, infinite or NaN.
     pub fn new(sigma: T) -> Result<Self, ParameterError> {
         within("sigma", sigma, [0.0, T::MAX.to_f64()], "finite and not negative").map(Self)
+    }
+
+    /// σ moved into the domain, NaN to 0: for values read from textures.
+    #[inline]
+    pub fn clamped(sigma: T) -> Self {
+        Self(sigma.clamp_to(T::ZERO, T::MAX))
     }
 
     /// The number.

@@ -6,17 +6,26 @@ extern crate alloc;
 #[cfg(any(feature = "std", test))]
 extern crate std;
 
+pub mod camera;
+#[cfg(feature = "std")]
+pub mod color;
 pub mod film;
 pub mod geometry;
+pub mod light;
 #[cfg(feature = "std")]
 pub mod load;
+pub mod material;
+pub mod scene;
 pub mod texture;
+#[cfg(feature = "std")]
+pub mod xml;
 
 #[cfg(feature = "std")]
 mod error;
 
 #[cfg(feature = "std")]
 pub use error::{ErrorKind, Location, SceneError, Warning};
+pub use scene::Scene;
 
 /// Linear RGB in the renderer's precision.
 pub type Color = etendue_math::Rgb<f32>;

@@ -30,7 +30,7 @@ pub enum Wrap {
 impl Wrap {
     /// The texel, of `size` in a row, that stands for the `index`-th.
     #[inline]
-    fn apply(self, index: i32, size: u32) -> u32 {
+    pub(super) fn apply(self, index: i32, size: u32) -> u32 {
         let size = size as i32;
         let wrapped = match self {
             Self::Repeat => index.rem_euclid(size),
@@ -84,30 +84,13 @@ impl Bitmap {
         let [u, v] = self.uv.apply(uv);
         let (x, y) = (u * self.image.width() as f32, v * self.image.height() as f32);
         match self.filter {
-            Filter::Nearest => self.texel(Real::floor(x) as i32, Real::floor(y) as i32),
-            Filter::Bilinear => {
-                let (column, fx) = split(x - 0.5);
-                let (row, fy) = split(y - 0.5);
-                let (right, below) = (column.saturating_add(1), row.saturating_add(1));
-                let upper = self.texel(column, row) * (1.0 - fx) + self.texel(right, row) * fx;
-                let lower = self.texel(column, below) * (1.0 - fx) + self.texel(right, below) * fx;
-                upper * (1.0 - fy) + lower * fy
+            Filter::Nearest => {
+                let (column, row) = (Real::floor(x) as i32, Real::floor(y) as i32);
+                self.image.wrapped(column, row, [self.wrap; 2])
             }
+            Filter::Bilinear => self.image.bilinear([x - 0.5, y - 0.5], [self.wrap; 2]),
         }
     }
-
-    #[inline]
-    fn texel(&self, column: i32, row: i32) -> Color {
-        let column = self.wrap.apply(column, self.image.width());
-        self.image.texel(column, self.wrap.apply(row, self.image.height()))
-    }
-}
-
-/// The integer below and the fraction above it; 0 for the fraction of what is not finite.
-#[inline]
-fn split(x: f32) -> (i32, f32) {
-    let below = Real::floor(x);
-    (below as i32, Real::clamp_to(x - below, 0.0, 1.0))
 }
 
 #[cfg(test)]

@@ -5,6 +5,7 @@ use alloc::vec::Vec;
 
 use etendue_math::{Real, Rgb, Spectrum};
 
+use super::Wrap;
 use crate::Color;
 
 /// Why texels are refused.
@@ -166,6 +167,24 @@ impl BitmapImage {
         }
     }
 
+    /// A texel of the image continued beyond its borders, in columns and in rows.
+    #[inline]
+    pub(crate) fn wrapped(&self, column: i32, row: i32, [x, y]: [Wrap; 2]) -> Color {
+        self.texel(x.apply(column, self.width), y.apply(row, self.height))
+    }
+
+    /// The colour between texels: at integer `x` and `y` it is that of column x and row y.
+    #[inline]
+    pub(crate) fn bilinear(&self, [x, y]: [f32; 2], wrap: [Wrap; 2]) -> Color {
+        let (column, fx) = split(x);
+        let (row, fy) = split(y);
+        let (right, below) = (column.saturating_add(1), row.saturating_add(1));
+        let between = |row| {
+            self.wrapped(column, row, wrap) * (1.0 - fx) + self.wrapped(right, row, wrap) * fx
+        };
+        between(row) * (1.0 - fy) + between(below) * fy
+    }
+
     fn colors(&self) -> impl Iterator<Item = Color> {
         (0..self.height)
             .flat_map(move |row| (0..self.width).map(move |column| self.texel(column, row)))
@@ -183,6 +202,13 @@ impl BitmapImage {
     pub fn max(&self) -> Color {
         self.colors().fold(Color::black(), |max, c| max.zip(c, f32::max))
     }
+}
+
+/// The integer below and the fraction above it, which is 0 for what is not finite.
+#[inline]
+fn split(x: f32) -> (i32, f32) {
+    let below = Real::floor(x);
+    (below as i32, Real::clamp_to(x - below, 0.0, 1.0))
 }
 
 fn check(width: u32, height: u32, channels: u32, found: usize) -> Result<(), BitmapError> {

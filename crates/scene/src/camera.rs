@@ -1,0 +1,292 @@
+//! Cameras.
+
+use etendue_math::glam::{Vec2, Vec3};
+use etendue_math::{Real, Vector3};
+use etendue_sampling::warp::disk;
+
+use crate::geometry::{Ray, Transform};
+
+/// How directions become points of the picture.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Projection {
+    /// A pinhole.
+    Perspective {
+        /// How much is seen.
+        field_of_view: FieldOfView,
+        /// Shift of the optical axis in widths and heights of the film, for lenses that are
+        /// shifted sideways.
+        principal_point_offset: [f32; 2],
+    },
+    /// A lens of negligible thickness: what lies off the focal plane is blurred.
+    ThinLens {
+        /// How much is seen.
+        field_of_view: FieldOfView,
+        /// Radius of the lens in units of the scene, not negative.
+        aperture_radius: f32,
+        /// Distance of the plane in focus along the optical axis, positive.
+        focus_distance: f32,
+    },
+    /// Parallel rays; the film is 2 units wide before the camera's own scaling.
+    Orthographic,
+}
+
+/// How much of the scene a perspective camera sees.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum FieldOfView {
+    /// The angle between the rays at opposite edges.
+    Angle {
+        /// In degrees, between 0 and 180, both excluded.
+        degrees: f64,
+        /// Which edges.
+        axis: FovAxis,
+    },
+    /// A focal length as on 35 mm film, whose diagonal it sees.
+    FocalLength {
+        /// Positive.
+        millimetres: f64,
+    },
+}
+
+/// Along which axis of the picture a field of view is measured.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum FovAxis {
+    /// From left to right.
+    #[default]
+    X,
+    /// From top to bottom.
+    Y,
+    /// Between opposite corners.
+    Diagonal,
+    /// The shorter one of the first two.
+    Smaller,
+    /// The longer one of the first two.
+    Larger,
+}
+
+/// Why a camera is refused.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum CameraError {
+    /// The film has no pixel.
+    #[error("the film has no pixels")]
+    Film,
+    /// The angle is NaN or outside its domain.
+    #[error("a field of view of {0}° is not between 0° and 180°")]
+    FieldOfView(f64),
+    /// The focal length is NaN, infinite or not positive.
+    #[error("a focal length of {0} mm is not positive and finite")]
+    FocalLength(f64),
+    /// The clipping distances do not enclose anything.
+    #[error("clipping distances need 0 < near < far, but are {near} and {far}")]
+    Clip {
+        /// The near one.
+        near: f32,
+        /// The far one.
+        far: f32,
+    },
+    /// A lens radius that is NaN, infinite or negative.
+    #[error("an aperture radius of {0} is not a length")]
+    Aperture(f32),
+    /// A distance that is NaN, infinite or not positive.
+    #[error("a focus distance of {0} is not positive and finite")]
+    FocusDistance(f32),
+    /// An offset that is NaN or infinite.
+    #[error("the offset of the principal point is not finite")]
+    PrincipalPoint,
+    /// The transform maps the optical axis to nothing that has a direction.
+    #[error("the camera's transform leaves no direction to look in")]
+    Transform,
+}
+
+impl FieldOfView {
+    /// Half the width of the picture at distance 1.
+    ///
+    /// ```text
+    /// x: tan(φ/2)    y: a tan(φ/2)    diagonal: tan(φ/2) / √(1 + 1/a²)    a = width / height
+    /// focal length f: diagonal with tan(φ/2) = √(36² + 24²) / 2f
+    /// ```
+    ///
+    /// # Errors
+    /// An angle outside (0°, 180°), a focal length that is not positive, a film without pixels.
+    ///
+    /// # Source
+    /// Mitsuba 3's `parse_fov`.
+    pub fn half_width(self, film_size: [u32; 2]) -> Result<f64, CameraError> {
+        let [width, height] = film_size.map(f64::from);
+        if width < 1.0 || height < 1.0 {
+            return Err(CameraError::Film);
+        }
+        let aspect = width / height;
+        let diagonal = |tan: f64| tan / Real::sqrt(1.0 + 1.0 / (aspect * aspect));
+        match self {
+            Self::FocalLength { millimetres } => {
+                if !(millimetres > 0.0 && millimetres.is_finite()) {
+                    return Err(CameraError::FocalLength(millimetres));
+                }
+                let film_diagonal = Real::sqrt(36.0_f64 * 36.0 + 24.0 * 24.0);
+                Ok(diagonal(0.5 * film_diagonal / millimetres))
+            }
+            Self::Angle { degrees, axis } => {
+                if !(degrees > 0.0 && degrees < 180.0) {
+                    return Err(CameraError::FieldOfView(degrees));
+                }
+                let tan = Real::tan(0.5 * degrees.to_radians());
+                Ok(match axis {
+                    FovAxis::X => tan,
+                    FovAxis::Y => tan * aspect,
+                    FovAxis::Diagonal => diagonal(tan),
+                    FovAxis::Smaller => tan * aspect.max(1.0),
+                    FovAxis::Larger => tan * aspect.min(1.0),
+                })
+            }
+        }
+    }
+}
+
+/// A camera: from a point of the film and a point of the lens to a ray.
+///
+/// In its own coordinates it looks along +z with +y up and +x to the *left* of the picture.
+///
+/// # Source
+/// The conventions of Mitsuba 3's `perspective`, `thinlens` and `orthographic`.
+///
+/// # Examples
+/// ```
+/// use etendue_math::glam::{DVec3, Vec3};
+/// use etendue_scene::camera::{Camera, FieldOfView, FovAxis, Projection};
+/// use etendue_scene::geometry::Transform;
+///
+/// let to_world = Transform::look_at(DVec3::new(0.0, 0.0, 5.0), DVec3::ZERO, DVec3::Y)?;
+/// let field_of_view = FieldOfView::Angle { degrees: 40.0, axis: FovAxis::X };
+/// let projection = Projection::Perspective { field_of_view, principal_point_offset: [0.0; 2] };
+/// let camera = Camera::new(projection, to_world, 0.01, 1e4, [640, 480])?;
+/// let ray = camera.ray([320.0, 240.0], [0.5, 0.5]);
+/// assert_eq!(ray.direction, -Vec3::Z);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct Camera {
+    to_world: Transform,
+    near: f32,
+    far: f32,
+    /// Camera x and y, at distance 1, of the film's origin.
+    origin: Vec2,
+    /// Their change from pixel to pixel.
+    step: Vec2,
+    optics: Optics,
+}
+
+#[derive(Clone, Copy, Debug)]
+enum Optics {
+    Pinhole,
+    Lens { radius: f32, focus_distance: f32 },
+    Parallel { direction: Vec3 },
+}
+
+impl Camera {
+    /// A camera.
+    ///
+    /// * `to_world`: from camera to world coordinates. A perspective camera is not changed by
+    ///   scaling, an orthographic one sees more.
+    /// * `near`, `far`: nothing nearer or farther along the optical axis is seen; `0 < near < far`.
+    /// * `film_size`: of the whole film, also where only a crop is rendered.
+    ///
+    /// # Errors
+    /// Any parameter outside its domain.
+    pub fn new(
+        projection: Projection,
+        to_world: Transform,
+        near: f32,
+        far: f32,
+        film_size: [u32; 2],
+    ) -> Result<Self, CameraError> {
+        if !(near > 0.0 && near < far && far.is_finite()) {
+            return Err(CameraError::Clip { near, far });
+        }
+        let axis =
+            Vector3::try_normalize(to_world.vector(Vec3::Z)).ok_or(CameraError::Transform)?;
+        let (half_width, [offset_x, offset_y], optics) = match projection {
+            Projection::Perspective { field_of_view, principal_point_offset } => {
+                (field_of_view.half_width(film_size)?, principal_point_offset, Optics::Pinhole)
+            }
+            Projection::ThinLens { field_of_view, aperture_radius, focus_distance } => {
+                if !(aperture_radius >= 0.0 && aperture_radius.is_finite()) {
+                    return Err(CameraError::Aperture(aperture_radius));
+                }
+                if !(focus_distance > 0.0 && focus_distance.is_finite()) {
+                    return Err(CameraError::FocusDistance(focus_distance));
+                }
+                let lens = Optics::Lens { radius: aperture_radius, focus_distance };
+                (field_of_view.half_width(film_size)?, [0.0; 2], lens)
+            }
+            Projection::Orthographic => (1.0, [0.0; 2], Optics::Parallel { direction: axis }),
+        };
+        if !(offset_x.is_finite() && offset_y.is_finite()) {
+            return Err(CameraError::PrincipalPoint);
+        }
+        let [width, height] = film_size.map(f64::from);
+        if width < 1.0 || height < 1.0 {
+            return Err(CameraError::Film);
+        }
+        let half_height = half_width * height / width;
+        let pixel = 2.0 * half_width / width;
+        Ok(Self {
+            to_world,
+            near,
+            far,
+            origin: Vec2::new(
+                (half_width * (1.0 - 2.0 * f64::from(offset_x))) as f32,
+                (half_height * (1.0 - 2.0 * f64::from(offset_y))) as f32,
+            ),
+            step: Vec2::splat(-pixel as f32),
+            optics,
+        })
+    }
+
+    /// The ray through a point of the film and a point of the lens, from the near clipping plane
+    /// to the far one; its direction has unit length.
+    ///
+    /// * `film`: column and row in pixels of the whole film; the first pixel, at the top left,
+    ///   covers `[0, 1)²`.
+    /// * `lens`: two uniforms in `[0, 1)`; only a thin lens uses them.
+    #[inline]
+    pub fn ray(&self, film: [f32; 2], lens: [f32; 2]) -> Ray {
+        let at = self.origin + self.step * Vec2::from_array(film);
+        match self.optics {
+            Optics::Pinhole => self.ray_along(Vec3::ZERO, at.extend(1.0)),
+            Optics::Lens { radius, focus_distance } => {
+                let [x, y] = disk::from_square(lens);
+                let aperture = Vec2::new(x, y) * radius;
+                let focus = at * focus_distance;
+                self.ray_along(aperture.extend(0.0), (focus - aperture).extend(focus_distance))
+            }
+            Optics::Parallel { direction } => Ray {
+                origin: self.to_world.point(at.extend(self.near)),
+                direction,
+                t_max: self.far - self.near,
+            },
+        }
+    }
+
+    /// The clipped ray from a point of the plane z = 0 in a direction with positive z, both in
+    /// camera coordinates.
+    #[inline]
+    fn ray_along(&self, from: Vec3, local: Vec3) -> Ray {
+        // How far to go for every unit of depth.
+        let slant = Vector3::length(local) / local.z;
+        let world = self.to_world.vector(local);
+        let direction = world / Vector3::length(world);
+        Ray {
+            origin: self.to_world.point(from) + direction * (self.near * slant),
+            direction,
+            t_max: (self.far - self.near) * slant,
+        }
+    }
+
+    /// Where the camera stands, in world coordinates.
+    pub fn position(&self) -> Vec3 {
+        self.to_world.point(Vec3::ZERO)
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,64 @@
+//! Shapes that emit.
+
+use etendue_brdf::Density;
+use etendue_math::glam::Vec3;
+use etendue_math::{Real, Spectrum, Vector3};
+
+use super::LightSample;
+use crate::Color;
+use crate::geometry::{Shape, ShapeId, SurfacePoint};
+use crate::texture::{TextureId, Textures};
+
+/// A shape that emits from its front side, with the same radiance into all directions.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct AreaLight {
+    /// The shape, one that is not part of a group.
+    pub shape: ShapeId,
+    /// Radiance L over the surface, in W sr⁻¹ m⁻².
+    pub radiance: TextureId,
+}
+
+impl AreaLight {
+    /// A point on one primitive of the shape, as [`Shape::sample_from`] draws it; `None` where it
+    /// shows its back.
+    #[inline]
+    pub(crate) fn sample(
+        &self,
+        shape: &Shape,
+        textures: &Textures,
+        primitive: u32,
+        reference: Vec3,
+        u: [f32; 2],
+    ) -> Option<LightSample> {
+        let (point, pdf) = shape.sample_from(primitive, reference, u)?;
+        let to_light = point.position - reference;
+        // Written so that NaN is refused; the density is 0 where the length is.
+        let shows_front = to_light.dot(point.normal) < 0.0;
+        let radiance = textures.color(self.radiance, point.uv);
+        if !shows_front || radiance.is_black() {
+            return None;
+        }
+        Some(LightSample {
+            direction: Vector3::try_normalize(to_light)?,
+            target: Some(point.seen_from(reference)),
+            radiance,
+            density: Density::Continuous(pdf),
+        })
+    }
+
+    /// Radiance that leaves a point of the shape towards `direction`; `None` on its back.
+    #[inline]
+    pub(crate) fn emitted(
+        &self,
+        textures: &Textures,
+        point: &SurfacePoint,
+        direction: Vec3,
+    ) -> Option<Color> {
+        (direction.dot(point.normal) > 0.0).then(|| textures.color(self.radiance, point.uv))
+    }
+
+    /// Power Φ = π A L of an area A in m², with the mean of the texture, in W.
+    pub(crate) fn power(&self, textures: &Textures, area: f32) -> f32 {
+        f32::PI * area * textures.mean(self.radiance).luminance()
+    }
+}

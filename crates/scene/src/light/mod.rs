@@ -1,0 +1,92 @@
+//! What light comes from.
+
+mod area;
+mod bounds;
+mod environment;
+mod point;
+mod spot;
+
+use etendue_brdf::Density;
+use etendue_math::glam::Vec3;
+
+pub use area::AreaLight;
+pub use bounds::{EmissionSides, LightBounds};
+pub use environment::EnvironmentLight;
+pub use point::{ConstantLight, DirectionalLight, PointLight};
+pub use spot::SpotLight;
+
+use crate::Color;
+
+/// Names a light of a scene by its place in the scene's list.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct LightId(pub u32);
+
+/// A source of light.
+#[derive(Clone, Debug)]
+pub enum Light {
+    /// A shape that emits from its front side.
+    Area(AreaLight),
+    /// A point that emits evenly into all directions.
+    Point(PointLight),
+    /// A point that emits into a cone.
+    Spot(SpotLight),
+    /// Parallel light from infinitely far away.
+    Directional(DirectionalLight),
+    /// The same light from all directions.
+    Constant(ConstantLight),
+    /// A picture of all directions.
+    Environment(EnvironmentLight),
+}
+
+impl Light {
+    /// Whether the light surrounds the scene instead of having a place in it.
+    #[inline]
+    pub fn is_infinite(&self) -> bool {
+        matches!(self, Self::Directional(_) | Self::Constant(_) | Self::Environment(_))
+    }
+
+    /// Whether only light sampling finds it: no ray hits a point or a single direction.
+    #[inline]
+    pub fn is_delta(&self) -> bool {
+        matches!(self, Self::Point(_) | Self::Spot(_) | Self::Directional(_))
+    }
+}
+
+/// Light that arrives at a point from a sampled direction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LightSample {
+    /// Unit vector towards the light.
+    pub direction: Vec3,
+    /// The point on the light, moved off its surface already; `None` for a light infinitely far.
+    pub target: Option<Vec3>,
+    /// Radiance from there in W sr⁻¹ m⁻²; for a [`Density::Delta`] the irradiance in W m⁻² on a
+    /// surface that faces it. What lies between is not considered.
+    pub radiance: Color,
+    /// How likely the direction was, given the light and its primitive.
+    pub density: Density<f32>,
+}
+
+/// Why a light is refused.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum LightError {
+    /// Radiance, intensity or irradiance is NaN, infinite or negative.
+    #[error("the emitted light is not finite and non-negative in every channel")]
+    Emission,
+    /// The position is NaN or infinite.
+    #[error("the position is not finite")]
+    Position,
+    /// The direction is zero, NaN or infinite.
+    #[error("the direction has no length")]
+    Direction,
+    /// The angles of a spot light are not `0 ≤ beam width ≤ cutoff ≤ 180` with a positive cutoff.
+    #[error("the beam width must lie between 0 and the cutoff angle, and that at most at 180°")]
+    Cone,
+    /// The transform of an environment map does more than rotate, mirror and scale evenly.
+    #[error("the transform of an environment map may only rotate, mirror and scale evenly")]
+    Transform,
+}
+
+/// Finite and not negative in every channel.
+fn is_emission(color: Color) -> bool {
+    color.to_array().iter().all(|c| c.is_finite() && *c >= 0.0)
+}

@@ -1,0 +1,233 @@
+//! What surfaces are made of.
+//!
+//! A [`Material`] names textures; [`Materials::prepare`] looks them up at one point and gives the
+//! reflection model there, a [`PreparedBsdf`].
+
+mod model;
+mod prepare;
+mod prepared;
+
+use alloc::sync::Arc;
+use alloc::vec::Vec;
+
+use etendue_brdf::{
+    Alpha, Distribution, InternalReflectance, InternalScattering, Ior, Masking, PlasticInterface,
+    TransmittanceTable,
+};
+
+pub use model::Model;
+pub use prepared::PreparedBsdf;
+
+use crate::texture::TextureId;
+
+/// Names a material of a [`Materials`] arena.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct MaterialId(pub u32);
+
+/// A reflection model whose parameters vary over the surface.
+///
+/// Values that textures give outside a parameter's domain are moved to its nearest end.
+#[derive(Clone, Debug)]
+pub enum Material {
+    /// Lambert's ideal diffuse reflector.
+    Diffuse {
+        /// Albedo.
+        reflectance: TextureId,
+    },
+    /// Oren and Nayar's rough diffuse reflector.
+    RoughDiffuse {
+        /// Albedo of a facet.
+        reflectance: TextureId,
+        /// Standard deviation of the facets' slope angle in radians.
+        sigma: TextureId,
+        /// Which of their two forms.
+        form: OrenNayarForm,
+    },
+    /// An interface between two transparent media.
+    Dielectric {
+        /// Index of the medium behind the surface relative to the one in front.
+        eta: Ior<f32>,
+        /// None for a smooth one.
+        roughness: Option<Roughness>,
+        /// Factor of reflected light, 1 physically.
+        specular_reflectance: TextureId,
+        /// Factor of transmitted light, 1 physically.
+        specular_transmittance: TextureId,
+    },
+    /// A pane with two parallel interfaces and no thickness.
+    ThinDielectric {
+        /// Index of the pane relative to its surroundings.
+        eta: Ior<f32>,
+        /// Factor of reflected light, 1 physically.
+        specular_reflectance: TextureId,
+        /// Factor of transmitted light, 1 physically.
+        specular_transmittance: TextureId,
+    },
+    /// A metal.
+    Conductor {
+        /// Its complex index.
+        index: ConductorIndex,
+        /// None for a smooth one.
+        roughness: Option<Roughness>,
+        /// Factor of reflected light, 1 physically.
+        specular_reflectance: TextureId,
+    },
+    /// A diffuse base under a dielectric interface.
+    Plastic {
+        /// The interface.
+        surface: PlasticSurface,
+        /// Albedo of the base, as `scattering` takes it.
+        diffuse_reflectance: TextureId,
+        /// Factor of light reflected by the interface, 1 physically.
+        specular_reflectance: TextureId,
+        /// Whether colours shift by scattering below the interface.
+        scattering: InternalScattering,
+    },
+    /// A surface that is partly not there.
+    Mask {
+        /// The share of light that meets the surface.
+        opacity: TextureId,
+        /// What the surface is made of where it is there.
+        nested: MaterialId,
+    },
+    /// One-sided materials, used on both sides.
+    TwoSided {
+        /// On the side of the normal.
+        front: MaterialId,
+        /// On the other.
+        back: MaterialId,
+    },
+    /// A surface that light does not notice.
+    Null,
+}
+
+/// Which form of Oren and Nayar's model.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum OrenNayarForm {
+    /// With interreflection.
+    #[default]
+    Full,
+    /// Their simplification.
+    Qualitative,
+}
+
+/// A microfacet surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Roughness {
+    /// Of the facets' normals.
+    pub distribution: Distribution,
+    /// How facets hide each other.
+    pub masking: Masking,
+    /// Width α along ∂p/∂u.
+    pub alpha_u: TextureId,
+    /// Width α along ∂p/∂v.
+    pub alpha_v: TextureId,
+}
+
+/// The index of refraction of a metal relative to what surrounds it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ConductorIndex {
+    /// Reflects everything, at every angle.
+    Mirror,
+    /// η + ik per channel.
+    Complex {
+        /// Real part.
+        eta: TextureId,
+        /// Extinction coefficient.
+        k: TextureId,
+    },
+}
+
+/// The interface of plastic, with what has to be integrated over it beforehand.
+#[derive(Clone, Debug)]
+pub enum PlasticSurface {
+    /// A mirror.
+    Smooth(PlasticInterface<f32>),
+    /// Microfacets.
+    Rough(Arc<TransmittanceTable<f32>>),
+}
+
+impl PlasticSurface {
+    /// A smooth interface to a base of relative index `eta`.
+    pub fn smooth(eta: Ior<f32>, internal: InternalReflectance) -> Self {
+        Self::Smooth(PlasticInterface::new(eta, internal))
+    }
+
+    /// A rough interface of isotropic width `alpha` to a base of relative index `eta`.
+    pub fn rough(
+        eta: Ior<f32>,
+        distribution: Distribution,
+        alpha: Alpha<f32>,
+        masking: Masking,
+        internal: InternalReflectance,
+    ) -> Self {
+        let table = TransmittanceTable::new(eta, distribution, alpha, masking, internal);
+        Self::Rough(Arc::new(table))
+    }
+}
+
+/// Why a material is refused.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum MaterialError {
+    /// It refers to a material that was not added before it.
+    #[error("there is no material {0} yet")]
+    Unknown(u32),
+    /// It puts something that light can pass on one side of a surface.
+    #[error("only an opaque material can be used on one side of a surface")]
+    TransmissiveSide,
+}
+
+/// All materials of a scene.
+#[derive(Clone, Debug, Default)]
+pub struct Materials {
+    materials: Vec<Material>,
+}
+
+impl Materials {
+    /// Adds a material.
+    ///
+    /// # Errors
+    /// A reference to a material that was not added before; a [`Material::TwoSided`] of materials
+    /// that transmit, are masked or are two-sided themselves.
+    pub fn add(&mut self, material: Material) -> Result<MaterialId, MaterialError> {
+        match material {
+            Material::Mask { nested, .. } => {
+                self.get(nested).ok_or(MaterialError::Unknown(nested.0))?;
+            }
+            Material::TwoSided { front, back } => {
+                for side in [front, back] {
+                    let material = self.get(side).ok_or(MaterialError::Unknown(side.0))?;
+                    if !material.is_one_sided() {
+                        return Err(MaterialError::TransmissiveSide);
+                    }
+                }
+            }
+            _ => {}
+        }
+        self.materials.push(material);
+        Ok(MaterialId(self.materials.len() as u32 - 1))
+    }
+
+    /// A material, or `None` for an unknown `id`.
+    #[inline]
+    pub fn get(&self, id: MaterialId) -> Option<&Material> {
+        self.materials.get(id.0 as usize)
+    }
+}
+
+impl Material {
+    /// Reflects on the front and is black from behind.
+    fn is_one_sided(&self) -> bool {
+        match self {
+            Self::Diffuse { .. }
+            | Self::RoughDiffuse { .. }
+            | Self::Conductor { .. }
+            | Self::Plastic { .. } => true,
+            Self::Dielectric { .. }
+            | Self::ThinDielectric { .. }
+            | Self::Mask { .. }
+            | Self::TwoSided { .. }
+            | Self::Null => false,
+        }
+    }
+}

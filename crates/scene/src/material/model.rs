@@ -1,0 +1,92 @@
+//! One reflection model, whichever it is.
+
+use etendue_brdf::{
+    Bsdf, Lambert, Lobes, Null, OrenNayar, OrenNayarQualitative, Plastic, RoughConductor,
+    RoughDielectric, RoughPlastic, Sample, SmoothConductor, SmoothDielectric, ThinDielectric,
+};
+use etendue_math::glam::Vec3;
+
+use crate::Color;
+
+/// A reflection model with its parameters at one point.
+///
+/// An enumeration, because a call through a table of functions cannot be inlined.
+#[derive(Clone, Copy, Debug)]
+pub enum Model<'a> {
+    /// Ideal diffuse.
+    Lambert(Lambert<Color>),
+    /// Rough diffuse with interreflection.
+    OrenNayar(OrenNayar<Color>),
+    /// Rough diffuse, simplified.
+    OrenNayarQualitative(OrenNayarQualitative<Color>),
+    /// A smooth interface of transparent media.
+    SmoothDielectric(SmoothDielectric<Color>),
+    /// A rough interface of transparent media.
+    RoughDielectric(RoughDielectric<Color>),
+    /// A pane without thickness.
+    ThinDielectric(ThinDielectric<Color>),
+    /// A polished metal.
+    SmoothConductor(SmoothConductor<Color>),
+    /// A rough metal.
+    RoughConductor(RoughConductor<Color>),
+    /// A diffuse base under a smooth interface.
+    Plastic(Plastic<Color>),
+    /// A diffuse base under a rough interface.
+    RoughPlastic(RoughPlastic<'a, Color>),
+    /// Nothing.
+    Null(Null<Color>),
+}
+
+/// Implements [`Bsdf`] for an enumeration by handing every call to whichever variant is there.
+macro_rules! forward_bsdf {
+    ($enum:ident: $($variant:ident),+) => {
+        impl Bsdf for $enum<'_> {
+            type Color = Color;
+
+            #[inline]
+            fn lobes(&self) -> Lobes {
+                match self { $(Self::$variant(model) => model.lobes()),+ }
+            }
+
+            #[inline]
+            fn eval(&self, wo: Vec3, wi: Vec3) -> Color {
+                match self { $(Self::$variant(model) => model.eval(wo, wi)),+ }
+            }
+
+            #[inline]
+            fn pdf(&self, wo: Vec3, wi: Vec3) -> f32 {
+                match self { $(Self::$variant(model) => model.pdf(wo, wi)),+ }
+            }
+
+            #[inline]
+            fn eval_pdf(&self, wo: Vec3, wi: Vec3) -> (Color, f32) {
+                match self { $(Self::$variant(model) => model.eval_pdf(wo, wi)),+ }
+            }
+
+            #[inline]
+            fn sample(&self, wo: Vec3, u_lobe: f32, u: [f32; 2]) -> Option<Sample<Color>> {
+                match self { $(Self::$variant(model) => model.sample(wo, u_lobe, u)),+ }
+            }
+
+            #[inline]
+            fn albedo(&self, wo: Vec3) -> Option<Color> {
+                match self { $(Self::$variant(model) => model.albedo(wo)),+ }
+            }
+        }
+    };
+}
+pub(super) use forward_bsdf;
+
+forward_bsdf!(
+    Model: Lambert,
+    OrenNayar,
+    OrenNayarQualitative,
+    SmoothDielectric,
+    RoughDielectric,
+    ThinDielectric,
+    SmoothConductor,
+    RoughConductor,
+    Plastic,
+    RoughPlastic,
+    Null
+);
