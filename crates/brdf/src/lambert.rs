@@ -1,9 +1,10 @@
 //! Lambert's ideal diffuse reflector.
 
-use etendue_math::{Real, Spectrum, Vector3};
+use etendue_math::{Real, Spectrum};
+use etendue_sampling::warp::cosine_hemisphere;
 
 use crate::bsdf::{above, both_above};
-use crate::{Bsdf, BsdfReal, BsdfVec, Density, Lobes, Reflectance, Sample, cosine};
+use crate::{Bsdf, BsdfReal, BsdfVec, Density, Lobes, Reflectance, Sample};
 
 /// Ideal diffuse reflection.
 ///
@@ -58,7 +59,7 @@ impl<C: Spectrum> Bsdf for Lambert<C> {
 
     #[inline]
     fn pdf(&self, wo: BsdfVec<Self>, wi: BsdfVec<Self>) -> BsdfReal<Self> {
-        if both_above(wo, wi) { cosine::pdf(wi.z()) } else { C::Real::ZERO }
+        if both_above(wo, wi) { cosine_hemisphere::pdf::<C::Real>(wi) } else { C::Real::ZERO }
     }
 
     #[inline]
@@ -68,14 +69,14 @@ impl<C: Spectrum> Bsdf for Lambert<C> {
         _u_lobe: BsdfReal<Self>,
         u: [BsdfReal<Self>; 2],
     ) -> Option<Sample<C>> {
-        let wi = cosine::from_square(u);
+        let wi = cosine_hemisphere::from_square(u);
         if !above(wo) || !above(wi) || self.reflectance.is_black() {
             return None;
         }
         Some(Sample {
             wi,
             weight: self.reflectance,
-            density: Density::Continuous(cosine::pdf(wi.z())),
+            density: Density::Continuous(cosine_hemisphere::pdf::<C::Real>(wi)),
             eta: C::Real::ONE,
         })
     }
@@ -93,7 +94,7 @@ mod tests {
 
     #[test]
     fn it_obeys_the_laws_of_a_bsdf() {
-        let model = Lambert::new(Reflectance::white());
+        let model = Lambert::new(Reflectance::<f64>::white());
         laws::reciprocal(&model, 1e-15);
         laws::sampling_matches_density(&model, 1e-14);
         laws::total(&model);

@@ -7,7 +7,6 @@ extern crate std;
 
 mod bsdf;
 mod conductor;
-mod cosine;
 mod dielectric;
 pub mod direction;
 pub mod fresnel;

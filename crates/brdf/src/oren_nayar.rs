@@ -1,10 +1,11 @@
 //! Oren and Nayar's rough diffuse reflector, full model.
 
 use etendue_math::{Real, Spectrum, Vec3, Vector3};
+use etendue_sampling::warp::cosine_hemisphere;
 
 use crate::bsdf::both_above;
 use crate::oren_nayar_qualitative::cosine_sample;
-use crate::{Bsdf, BsdfReal, BsdfVec, Lobes, Reflectance, Sample, Sigma, cosine};
+use crate::{Bsdf, BsdfReal, BsdfVec, Lobes, Reflectance, Sample, Sigma};
 
 /// V-cavities with Lambertian facets, one interreflection included.
 ///
@@ -24,7 +25,7 @@ use crate::{Bsdf, BsdfReal, BsdfVec, Lobes, Reflectance, Sample, Sigma, cosine};
 /// * Sampling: cosine-weighted, two uniforms; `None` from below and where f = 0.
 ///
 /// # Precision
-/// A few ulp times the condition of the problem. Angles come from `atan2` of the exact sine and cosine,
+/// A few ulp times the condition of the problem. Angles come from `atan2` of the exact sine and
 /// tangents from quotients, `1 − |cos φ|` is `sin² φ / (1 + |cos φ|)`, and the difference in C2 is
 /// taken between complements near grazing, where it cancels.
 ///
@@ -148,7 +149,7 @@ impl<C: Spectrum> Bsdf for OrenNayar<C> {
 
     #[inline]
     fn pdf(&self, wo: BsdfVec<Self>, wi: BsdfVec<Self>) -> BsdfReal<Self> {
-        if both_above(wo, wi) { cosine::pdf(wi.z()) } else { C::Real::ZERO }
+        if both_above(wo, wi) { cosine_hemisphere::pdf::<C::Real>(wi) } else { C::Real::ZERO }
     }
 
     #[inline]

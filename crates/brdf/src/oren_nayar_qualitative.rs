@@ -1,9 +1,10 @@
 //! Oren and Nayar's rough diffuse reflector, qualitative model.
 
 use etendue_math::{Real, Spectrum, Vector3};
+use etendue_sampling::warp::cosine_hemisphere;
 
 use crate::bsdf::{above, both_above};
-use crate::{Bsdf, BsdfReal, BsdfVec, Density, Lobes, Reflectance, Sample, Sigma, cosine};
+use crate::{Bsdf, BsdfReal, BsdfVec, Density, Lobes, Reflectance, Sample, Sigma};
 
 /// V-cavities with Lambertian facets, two-term fit without interreflection.
 ///
@@ -61,7 +62,7 @@ impl<C: Spectrum> Bsdf for OrenNayarQualitative<C> {
 
     #[inline]
     fn pdf(&self, wo: BsdfVec<Self>, wi: BsdfVec<Self>) -> BsdfReal<Self> {
-        if both_above(wo, wi) { cosine::pdf(wi.z()) } else { C::Real::ZERO }
+        if both_above(wo, wi) { cosine_hemisphere::pdf::<C::Real>(wi) } else { C::Real::ZERO }
     }
 
     #[inline]
@@ -82,12 +83,12 @@ pub(crate) fn cosine_sample<B: Bsdf>(
     wo: BsdfVec<B>,
     u: [BsdfReal<B>; 2],
 ) -> Option<Sample<B::Color>> {
-    let wi = cosine::from_square(u);
+    let wi = cosine_hemisphere::from_square(u);
     if !above(wo) || !above(wi) {
         return None;
     }
     let weight = model.eval(wo, wi).scale(BsdfReal::<B>::PI);
-    let density = Density::Continuous(cosine::pdf(wi.z()));
+    let density = Density::Continuous(cosine_hemisphere::pdf::<BsdfReal<B>>(wi));
     (!weight.is_black()).then_some(Sample { wi, weight, density, eta: BsdfReal::<B>::ONE })
 }
 

@@ -1,6 +1,7 @@
 //! Smooth plastic: a diffuse base under a dielectric interface.
 
 use etendue_math::{Real, Spectrum, Vector3};
+use etendue_sampling::warp::cosine_hemisphere;
 
 use crate::bsdf::{above, both_above};
 use crate::direction::reflect;
@@ -10,7 +11,7 @@ use crate::fresnel::{
 use crate::internal_scattering::{specular_probability, specular_share};
 use crate::{
     Bsdf, BsdfReal, BsdfVec, Density, InternalReflectance, InternalScattering, Ior, Lobes,
-    Reflectance, Sample, cosine,
+    Reflectance, Sample,
 };
 
 /// A smooth dielectric interface with its hemispherical averages: computed once per material.
@@ -135,7 +136,7 @@ impl<C: Spectrum> Bsdf for Plastic<C> {
             return C::Real::ZERO;
         }
         let mirror = self.mirror_probability(wo.z(), self.transmittance(wo.z()));
-        (C::Real::ONE - mirror) * cosine::pdf(wi.z())
+        (C::Real::ONE - mirror) * cosine_hemisphere::pdf::<C::Real>(wi)
     }
 
     #[inline]
@@ -148,7 +149,7 @@ impl<C: Spectrum> Bsdf for Plastic<C> {
         let t = t * self.transmittance(wi.z());
         (
             self.base.scale(t * self.interface.inverse_eta_squared * C::Real::FRAC_1_PI),
-            (C::Real::ONE - mirror) * cosine::pdf(wi.z()),
+            (C::Real::ONE - mirror) * cosine_hemisphere::pdf::<C::Real>(wi),
         )
     }
 
@@ -169,10 +170,10 @@ impl<C: Spectrum> Bsdf for Plastic<C> {
             let f = dielectric(wo.z(), self.interface.eta);
             (reflect(wo), self.specular.scale(f / mirror), Density::Delta(mirror))
         } else {
-            let wi = cosine::from_square(u);
+            let wi = cosine_hemisphere::from_square(u);
             let probability = one - mirror;
             let t = t * self.transmittance(wi.z()) * self.interface.inverse_eta_squared;
-            let density = Density::Continuous(probability * cosine::pdf(wi.z()));
+            let density = Density::Continuous(probability * cosine_hemisphere::pdf::<C::Real>(wi));
             (wi, self.base.scale(t / probability), density)
         };
         if !above(wi) || weight.is_black() {
@@ -212,7 +213,11 @@ mod tests {
         }
         let interface =
             PlasticInterface::new(Ior::new(1.5_f32).unwrap(), InternalReflectance::Mitsuba);
-        laws::total(&Plastic::new(interface, Reflectance::white(), InternalScattering::NonLinear));
+        laws::total(&Plastic::new(
+            interface,
+            Reflectance::<f32>::white(),
+            InternalScattering::NonLinear,
+        ));
     }
 
     #[test]

@@ -168,7 +168,7 @@ mod tests {
             }
         }
         let facets = Microfacets::ggx(Alpha::new(1e-3_f32).unwrap());
-        laws::total(&RoughConductor::new(ComplexIor::perfect(), facets));
+        laws::total(&RoughConductor::new(ComplexIor::<f32>::perfect(), facets));
     }
 
     #[test]

@@ -211,7 +211,7 @@ mod tests {
             }
         }
         let facets = Microfacets::ggx(Alpha::new(1e-3_f32).unwrap());
-        laws::total(&RoughDielectric::new(Ior::new(1.000_000_1_f32).unwrap(), facets).unwrap());
+        laws::total(&RoughDielectric::<f32>::new(Ior::new(1.000_000_1).unwrap(), facets).unwrap());
     }
 
     #[test]

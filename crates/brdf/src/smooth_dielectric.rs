@@ -4,7 +4,7 @@ use etendue_math::{Real, Spectrum, Vector3};
 
 use crate::bsdf::above;
 use crate::direction::reflect;
-use crate::fresnel::{dielectric, dielectric_transmittance, refract};
+use crate::fresnel::Refraction;
 use crate::{Bsdf, BsdfReal, BsdfVec, Density, Ior, Lobes, Reflectance, Sample};
 
 /// Smooth interface between two dielectrics: reflection and refraction.
@@ -79,20 +79,20 @@ impl<C: Spectrum> Bsdf for SmoothDielectric<C> {
         if !above(w) {
             return None;
         }
-        let sample = if u_lobe < dielectric(w.z(), eta) {
-            Sample {
+        let Refraction { reflectance, direction } = Refraction::new(w, eta);
+        let sample = match direction {
+            Some(wi) if u_lobe >= reflectance => Sample {
+                wi,
+                weight: self.specular_transmittance.scale(one / (eta * eta)),
+                density: Density::Delta(one - reflectance),
+                eta,
+            },
+            _ => Sample {
                 wi: reflect(w),
                 weight: self.specular_reflectance,
-                density: Density::Delta(dielectric(w.z(), eta)),
+                density: Density::Delta(reflectance),
                 eta: one,
-            }
-        } else {
-            Sample {
-                wi: refract(w, eta)?,
-                weight: self.specular_transmittance.scale(one / (eta * eta)),
-                density: Density::Delta(dielectric_transmittance(w.z(), eta)),
-                eta,
-            }
+            },
         };
         if sample.weight.is_black() {
             return None;
@@ -142,6 +142,19 @@ mod tests {
         for u in [0.0, 0.5] {
             let s = glass(1.0).sample(wo, u, [0.0; 2]).unwrap();
             assert_eq!((s.wi, s.weight, s.density), (-wo, 1.0, Density::Delta(1.0)));
+        }
+    }
+
+    #[test]
+    fn around_the_critical_angle_something_is_always_sampled() {
+        let model = SmoothDielectric::<f32>::new(Ior::new(1.5).unwrap());
+        let mut c = (1.0_f32 - 1.0 / 2.25).sqrt() - 1e-5;
+        for _ in 0..400 {
+            let wo = etendue_math::glam::Vec3::new((1.0 - c * c).sqrt(), 0.0, -c);
+            for u in [0.0, f32::ONE_MINUS_EPSILON] {
+                assert!(model.sample(wo, u, [0.0; 2]).is_some(), "{c} {u}");
+            }
+            c = c.next_up();
         }
     }
 

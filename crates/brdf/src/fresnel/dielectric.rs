@@ -53,7 +53,19 @@ pub fn dielectric_polarized<T: Real>(cos_i: T, eta: T) -> [T; 2] {
         return [T::ZERO; 2]; // also at c = 0, where r would be 0/0
     }
     let k = (eta - T::ONE) * (eta + T::ONE);
-    let Some(g) = scaled_cos_t(c, k) else { return [T::ONE; 2] };
+    scaled_cos_t(c, k).map_or([T::ONE; 2], |g| polarized_of_pair(c, g, eta))
+}
+
+/// [`dielectric`] where both angles are known: `g = η cos θt`, `c = cos θi`.
+#[inline(always)]
+pub(super) fn reflectance_of_pair<T: Real>(c: T, g: T, eta: T) -> T {
+    let [rs, rp] = polarized_of_pair(c, g, eta);
+    T::HALF * (rs + rp)
+}
+
+#[inline(always)]
+fn polarized_of_pair<T: Real>(c: T, g: T, eta: T) -> [T; 2] {
+    let k = (eta - T::ONE) * (eta + T::ONE);
     let sum = g + c;
     let r = k / (sum * sum);
     let q = (c * sum - T::ONE) / (c * (k / sum) + T::ONE);

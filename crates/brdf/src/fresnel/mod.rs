@@ -13,6 +13,7 @@ pub use average::{dielectric_average, dielectric_average_fit, schlick_average};
 pub use conductor::conductor;
 pub(crate) use dielectric::transmittance_of_pair;
 pub use dielectric::{dielectric, dielectric_polarized, dielectric_transmittance};
+pub(crate) use refraction::Refraction;
 pub use refraction::{refract, refract_about};
 pub use schlick::{f0_from_ior, ior_from_f0, schlick};
 
