@@ -282,6 +282,15 @@ impl Camera {
         }
     }
 
+    /// What kind of camera it is, in words.
+    pub fn name(&self) -> &'static str {
+        match self.optics {
+            Optics::Pinhole => "perspective",
+            Optics::Lens { .. } => "thin lens",
+            Optics::Parallel { .. } => "orthographic",
+        }
+    }
+
     /// Where the camera stands, in world coordinates.
     pub fn position(&self) -> Vec3 {
         self.to_world.point(Vec3::ZERO)

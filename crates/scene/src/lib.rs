@@ -20,12 +20,15 @@ pub mod texture;
 #[cfg(feature = "std")]
 pub mod xml;
 
+mod diagnosis;
 #[cfg(feature = "std")]
 mod error;
 
+pub use diagnosis::Diagnosis;
 #[cfg(feature = "std")]
 pub use error::{ErrorKind, Location, SceneError, Warning};
-pub use scene::Scene;
+pub use light::{EmissionSides, Light, LightBounds, LightId, LightSample};
+pub use scene::{PathSettings, SamplerKind, SamplingSettings, Scene, SceneParts, SurfaceInfo};
 
 /// Linear RGB in the renderer's precision.
 pub type Color = etendue_math::Rgb<f32>;

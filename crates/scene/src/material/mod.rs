@@ -208,6 +208,11 @@ impl Materials {
         Ok(MaterialId(self.materials.len() as u32 - 1))
     }
 
+    /// All materials, in the order of [`MaterialId`].
+    pub fn iter(&self) -> impl Iterator<Item = &Material> {
+        self.materials.iter()
+    }
+
     /// A material, or `None` for an unknown `id`.
     #[inline]
     pub fn get(&self, id: MaterialId) -> Option<&Material> {

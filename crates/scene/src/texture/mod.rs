@@ -113,6 +113,11 @@ impl Textures {
         if color.r == color.g && color.g == color.b { color.r } else { color.luminance() }
     }
 
+    /// All textures, constants included, in the order of [`TextureId`].
+    pub fn iter(&self) -> impl Iterator<Item = &Texture> {
+        self.entries.iter().map(|entry| &entry.texture)
+    }
+
     /// The texture itself, or `None` for an unknown `id`.
     pub fn get(&self, id: TextureId) -> Option<&Texture> {
         self.entries.get(id.0 as usize).map(|entry| &entry.texture)
