@@ -25,6 +25,9 @@ mod surface;
 mod transform;
 mod triangle;
 
+#[cfg(test)]
+mod tests;
+
 pub use aabb::Aabb;
 pub use builder::{GeometryBuilder, GroupId};
 pub use cylinder::Cylinder;

@@ -16,8 +16,8 @@ pub struct Geometry {
     shapes: Vec<Shape>,
     instances: Vec<Instance>,
     groups: Vec<Level>,
-    top: Level,
-    backend: Backend,
+    pub(super) top: Level,
+    pub(super) backend: Backend,
 }
 
 /// Where a ray meets a surface first.
@@ -63,9 +63,9 @@ struct Instance {
 
 /// One hierarchy: the world, or a group.
 #[derive(Clone, Debug)]
-struct Level {
+pub(super) struct Level {
     /// Its objects are the quadrics, followed by the instances of the world.
-    bvh: Bvh,
+    pub(super) bvh: Bvh,
     quadrics: Vec<u32>,
     triangles: usize,
     degenerate_triangles: usize,

@@ -54,6 +54,48 @@ struct Sheared<F> {
     z: F,
 }
 
+impl<F: Copy> Sheared<F> {
+    #[inline(always)]
+    fn store<S: Simd<F = F>>(&self, simd: S) -> [[f32; LANES]; 3] {
+        [simd.store(self.x), simd.store(self.y), simd.store(self.z)]
+    }
+}
+
+/// A [`TriangleRay`] in vectors.
+///
+/// No closures here: they would be compiled apart, without the instructions of the kernel.
+struct ShearFrame<F> {
+    origin: [F; 3],
+    axes: [usize; 3],
+    x: F,
+    y: F,
+}
+
+impl<F: Copy> ShearFrame<F> {
+    #[inline(always)]
+    fn new<S: Simd<F = F>>(simd: S, ray: &TriangleRay) -> Self {
+        let [x, y, z] = ray.axes;
+        Self {
+            origin: [
+                simd.splat(ray.origin[x]),
+                simd.splat(ray.origin[y]),
+                simd.splat(ray.origin[z]),
+            ],
+            axes: ray.axes,
+            x: simd.splat(ray.shear[0]),
+            y: simd.splat(ray.shear[1]),
+        }
+    }
+
+    #[inline(always)]
+    fn shear<S: Simd<F = F>>(&self, simd: S, corner: &[[f32; LANES]; 3]) -> Sheared<F> {
+        let x = simd.sub(simd.load(&corner[self.axes[0]]), self.origin[0]);
+        let y = simd.sub(simd.load(&corner[self.axes[1]]), self.origin[1]);
+        let z = simd.sub(simd.load(&corner[self.axes[2]]), self.origin[2]);
+        Sheared { x: simd.sub(x, simd.mul(self.x, z)), y: simd.sub(y, simd.mul(self.y, z)), z }
+    }
+}
+
 /// The triangles that the ray hits at `0 < t < t_max`.
 ///
 /// Corners are moved to the ray's origin and sheared so that the ray is the z axis; then
@@ -79,17 +121,10 @@ pub(super) fn hits<S: Simd>(
     ray: &TriangleRay,
     t_max: f32,
 ) -> Option<BlockHits> {
-    let [kx, ky, kz] = ray.axes;
-    let shear_x = simd.splat(ray.shear[0]);
-    let shear_y = simd.splat(ray.shear[1]);
-    let [ox, oy, oz] = [kx, ky, kz].map(|k| simd.splat(ray.origin[k]));
-    let [a, b, c] = core::array::from_fn(|corner| {
-        let corner = &block.corners[corner];
-        let z = simd.sub(simd.load(&corner[kz]), oz);
-        let x = simd.sub(simd.load(&corner[kx]), ox);
-        let y = simd.sub(simd.load(&corner[ky]), oy);
-        Sheared { x: simd.sub(x, simd.mul(shear_x, z)), y: simd.sub(y, simd.mul(shear_y, z)), z }
-    });
+    let frame = ShearFrame::new(simd, ray);
+    let a = frame.shear(simd, &block.corners[0]);
+    let b = frame.shear(simd, &block.corners[1]);
+    let c = frame.shear(simd, &block.corners[2]);
     let u = simd.sub(simd.mul(c.x, b.y), simd.mul(c.y, b.x));
     let v = simd.sub(simd.mul(a.x, c.y), simd.mul(a.y, c.x));
     let w = simd.sub(simd.mul(b.x, a.y), simd.mul(b.y, a.x));
@@ -114,8 +149,13 @@ pub(super) fn hits<S: Simd>(
         b2: simd.store(simd.div(w, determinant)),
     };
     if on_edge != 0 {
-        let store = |p: &Sheared<S::F>| [simd.store(p.x), simd.store(p.y), simd.store(p.z)];
-        redo_on_edges(&mut found, on_edge, [store(&a), store(&b), store(&c)], ray.shear[2], t_max);
+        redo_on_edges(
+            &mut found,
+            on_edge,
+            [a.store(simd), b.store(simd), c.store(simd)],
+            ray.shear[2],
+            t_max,
+        );
     }
     (found.mask != 0).then_some(found)
 }

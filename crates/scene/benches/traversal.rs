@@ -1,0 +1,151 @@
+//! Rays per second through a mesh: `cargo bench -p etendue-scene --bench traversal [FILE.obj]`.
+//!
+//! Without a file, a bumpy sphere of 72 000 triangles stands in. One thread; three kinds of rays:
+//! from a camera, from hit points in random directions, and segments between random hit points.
+#![allow(missing_docs, reason = "a program")]
+
+use std::time::Instant;
+
+use etendue_math::glam::Vec3;
+use etendue_scene::geometry::{Geometry, GeometryBuilder, Ray, Shape, SurfacePoint, TriangleMesh};
+
+fn main() {
+    // Cargo passes `--bench` along.
+    let file = std::env::args().skip(1).find(|a| !a.starts_with("--"));
+    let (positions, triangles) = match file {
+        Some(path) => read_obj(&std::fs::read_to_string(path).expect("a readable file")),
+        None => bumpy_sphere(120, 300),
+    };
+    let mesh = TriangleMesh::new(positions, vec![], vec![], triangles).expect("a valid mesh");
+    let mut builder = GeometryBuilder::new();
+    builder.add_shape(Shape::Mesh(mesh));
+    let start = Instant::now();
+    let geometry = builder.build();
+    let seconds = start.elapsed().as_secs_f64();
+    let s = geometry.statistics();
+    println!(
+        "{} triangles, {} nodes, {:.1} bytes/triangle, built in {:.1} ms",
+        s.triangles,
+        s.nodes,
+        s.bytes_per_triangle(),
+        seconds * 1e3
+    );
+
+    let primary = camera_rays(&geometry, 768);
+    report("primary", &primary, |ray| geometry.intersect(ray).is_some());
+    let points: Vec<SurfacePoint> = primary
+        .iter()
+        .filter_map(|ray| Some(geometry.surface_point(ray, &geometry.intersect(ray)?)))
+        .collect();
+    let mut random = Random(1);
+    let bounce: Vec<Ray> = points
+        .iter()
+        .map(|p| {
+            let d = random.direction();
+            p.spawn(if d.dot(p.normal) < 0.0 { -d } else { d })
+        })
+        .collect();
+    report("bounce", &bounce, |ray| geometry.intersect(ray).is_some());
+    let shadow: Vec<Ray> = points
+        .iter()
+        .map(|p| {
+            let other = &points[(random.uniform() * points.len() as f32) as usize % points.len()];
+            p.spawn_to(other.position + other.normal * (0.1 * geometry.bounds().extent().x))
+        })
+        .collect();
+    report("shadow", &shadow, |ray| geometry.occluded(ray));
+}
+
+/// Traces all rays a few times and prints the best rate.
+fn report(name: &str, rays: &[Ray], trace: impl Fn(&Ray) -> bool) {
+    let mut best = f64::INFINITY;
+    let mut hits = 0;
+    for _ in 0..5 {
+        let start = Instant::now();
+        hits = rays.iter().filter(|ray| trace(ray)).count();
+        best = best.min(start.elapsed().as_secs_f64());
+    }
+    println!(
+        "{name:8} {:6.2} Mrays/s ({} rays, {:.0} % hit)",
+        rays.len() as f64 / best * 1e-6,
+        rays.len(),
+        100.0 * hits as f64 / rays.len() as f64
+    );
+}
+
+fn camera_rays(geometry: &Geometry, size: u32) -> Vec<Ray> {
+    let bounds = geometry.bounds();
+    let (center, reach) = (bounds.center(), bounds.extent().max_element());
+    let eye = center + Vec3::new(0.3, 0.4, 1.6) * reach;
+    let forward = (center - eye).normalize();
+    let right = forward.cross(Vec3::Y).normalize();
+    let up = right.cross(forward);
+    let place = |i: u32| (i as f32 + 0.5) / size as f32 - 0.5;
+    (0..size * size)
+        .map(|i| Ray::new(eye, forward + (right * place(i % size) + up * place(i / size)) * 0.75))
+        .collect()
+}
+
+/// The vertices and fan-triangulated faces of an OBJ file.
+fn read_obj(text: &str) -> (Vec<Vec3>, Vec<[u32; 3]>) {
+    let (mut positions, mut triangles) = (Vec::new(), Vec::new());
+    for line in text.lines() {
+        let mut words = line.split_whitespace();
+        match words.next() {
+            Some("v") => {
+                let mut next = || words.next().and_then(|w| w.parse().ok()).expect("a coordinate");
+                positions.push(Vec3::new(next(), next(), next()));
+            }
+            Some("f") => {
+                let corners: Vec<u32> = words
+                    .map(|w| {
+                        w.split('/').next().and_then(|w| w.parse::<u32>().ok()).expect("an index")
+                    })
+                    .map(|i| i - 1)
+                    .collect();
+                triangles.extend(corners.windows(2).skip(1).map(|w| [corners[0], w[0], w[1]]));
+            }
+            _ => {}
+        }
+    }
+    (positions, triangles)
+}
+
+/// A sphere of `rows × columns` quadrilaterals with bumps.
+fn bumpy_sphere(rows: u32, columns: u32) -> (Vec<Vec3>, Vec<[u32; 3]>) {
+    use etendue_math::Real;
+    let position = |row: u32, column: u32| {
+        let theta = std::f32::consts::PI * row as f32 / rows as f32;
+        let phi = std::f32::consts::TAU * column as f32 / columns as f32;
+        let r = 1.0 + 0.1 * Real::sin(9.0 * theta) * Real::cos(11.0 * phi);
+        let (sin, cos) = Real::sin_cos(theta);
+        Vec3::new(sin * Real::cos(phi), cos, sin * Real::sin(phi)) * r
+    };
+    let positions =
+        (0..=rows).flat_map(|i| (0..columns).map(move |j| (i, j))).map(|(i, j)| position(i, j));
+    let triangles = (0..rows).flat_map(|i| (0..columns).map(move |j| (i, j))).flat_map(|(i, j)| {
+        let index = |i: u32, j: u32| i * columns + j % columns;
+        let (a, b, c, d) = (index(i, j), index(i, j + 1), index(i + 1, j + 1), index(i + 1, j));
+        [[a, b, c], [a, c, d]]
+    });
+    (positions.collect(), triangles.collect())
+}
+
+/// A small generator: the order of rays must not be what the processor's caches like.
+struct Random(u64);
+
+impl Random {
+    fn uniform(&mut self) -> f32 {
+        self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        (self.0 >> 40) as f32 * 2.0_f32.powi(-24)
+    }
+
+    fn direction(&mut self) -> Vec3 {
+        loop {
+            let v = Vec3::from_array(std::array::from_fn(|_| 2.0 * self.uniform() - 1.0));
+            if v.length_squared() > 1e-6 && v.length_squared() < 1.0 {
+                return v.normalize();
+            }
+        }
+    }
+}
