@@ -1,6 +1,67 @@
-//! Reflection models.
+//! Reflection models: exact, stable in the hard cases, in two precisions, without `std`.
+//!
+//! A model is a small value that implements [`Bsdf`]: `eval` gives the scattering function,
+//! `sample` draws a direction with its weight, `pdf` says how likely a direction was, `albedo`
+//! integrates where that has a closed form. Parameters are checked once, by the types that hold them;
+//! evaluation is total: outside its domain it is 0 or `None`, and never NaN.
+//!
+//! # Conventions
+//! - Local shading frame, unit normal `n = +z`; `wo` (viewer) and `wi` (light) are unit vectors pointing away
+//!   from the surface. `cos θ = w.z`.
+//! - `eval` is in sr⁻¹ and excludes the cosine; a sample's weight is `f |cos θi| / pdf`.
+//! - `alpha` is the width of the microfacet distribution itself, never its root; `eta` is
+//!   n(far side) / n(near side); angles are in radians.
+//! - Radiance is transported: refraction into a denser medium scales it by `1/η²`.
+//! - Delta lobes are apart from the rest by type ([`Density`]), not by a huge number.
+//! - Uniforms are arguments in `[0, 1)`: one to choose a lobe, two for the direction in it.
+//!
+//! # Models
+//! | type | what | sampling |
+//! | --- | --- | --- |
+//! | [`Lambert`] | ideal diffuse | cosine |
+//! | [`OrenNayar`], [`OrenNayarQualitative`] | rough diffuse (V-cavities) | cosine |
+//! | [`SmoothConductor`], [`RoughConductor`], [`Conductor`] | metal; the last chooses by roughness | mirror; visible normals |
+//! | [`SmoothDielectric`], [`RoughDielectric`], [`Dielectric`] | glass; the last chooses by roughness and index | Fresnel; visible normals |
+//! | [`ThinDielectric`] | pane | Fresnel of the slab |
+//! | [`Plastic`], [`RoughPlastic`] | diffuse base under a dielectric | mirror or visible normals, and cosine |
+//! | [`Null`] | nothing: straight on | – |
+//! | [`Mask`], [`TwoSided`] | adapters | that of the inner model |
+//!
+//! [`registry::MODELS`] is the same table with domains, laws and sources, as data. Below the models lie
+//! [`fresnel`] and [`microfacet`], usable alone.
+//!
+//! # Examples
+//! ```
+//! use etendue_brdf::{Alpha, Bsdf, ComplexIor, Microfacets, RoughConductor};
+//! use etendue_math::glam::DVec3;
+//!
+//! let copper = ComplexIor::new(0.21_f64, 4.25)?;
+//! let model = RoughConductor::new(copper, Microfacets::ggx(Alpha::new(0.3)?));
+//! let wo = DVec3::new(0.6, 0.0, 0.8);
+//! let sample = model.sample(wo, 0.0, [0.3, 0.6]).expect("above the surface");
+//! let (f, pdf) = model.eval_pdf(wo, sample.wi);
+//! assert!((sample.weight - f * sample.wi.z / pdf).abs() < 1e-12);
+//! # Ok::<(), etendue_brdf::ParameterError>(())
+//! ```
+//!
+//! # Precision
+//! Every value is within a few ulp of the exact one, scaled by the condition of the problem: the
+//! effect of half-ulp changes of the inputs. `tests/golden.rs` holds the crate to 8 such ulps on random
+//! inputs and 64 on hard ones (grazing, near-normal, α = 1e-4, η → 1) against values computed to 60 digits.
+//!
+//! # Features
+//! `std` (default) and `libm` choose the float functions; `libm` wins and gives the same bits on every
+//! target. `arch` makes `libm` faster without `std`.
+//!
+//! # Non-goals
+//! No textures, no world space, no normal maps: those belong to a scene. No polarisation. No
+//! multiple scattering between facets yet: rough models lose what it would return.
 #![no_std]
 #![forbid(unsafe_code)]
+#![allow(
+    clippy::neg_cmp_op_on_partial_ord,
+    reason = "`!(x > 0)` is how NaN is refused along with what is not positive"
+)]
 
 #[cfg(any(feature = "std", test))]
 extern crate std;
@@ -22,6 +83,7 @@ mod oren_nayar_qualitative;
 mod param;
 mod plastic;
 pub mod quadrature;
+pub mod registry;
 mod rough_conductor;
 mod rough_dielectric;
 mod rough_plastic;
@@ -51,3 +113,8 @@ pub use smooth_dielectric::SmoothDielectric;
 pub use thin_dielectric::ThinDielectric;
 pub use transmittance_table::TransmittanceTable;
 pub use two_sided::TwoSided;
+
+/// Runs the README's example.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -99,6 +99,20 @@ impl<C: Spectrum> Bsdf for SmoothDielectric<C> {
         }
         Some(if below { Sample { wi: sample.wi.flip_z(), ..sample } } else { sample })
     }
+
+    /// In radiance, as everywhere: `ks F + kt (1 − F) / η²`.
+    #[inline]
+    fn albedo(&self, wo: BsdfVec<Self>) -> Option<C> {
+        let one = <C::Real as Real>::ONE;
+        let below = wo.z() < C::Real::ZERO;
+        let (w, eta) = if below { (wo.flip_z(), one / self.eta) } else { (wo, self.eta) };
+        if !above(w) {
+            return Some(C::black());
+        }
+        let r = Refraction::new(w, eta).reflectance;
+        let t = (one - r) / (eta * eta);
+        Some(self.specular_reflectance.scale(r) + self.specular_transmittance.scale(t))
+    }
 }
 
 #[cfg(test)]

@@ -27,10 +27,10 @@ impl<F: Bsdf, B: Bsdf<Color = F::Color>> TwoSided<F, B> {
     }
 }
 
-impl<F: Bsdf + Copy> TwoSided<F, F> {
+impl<M: Bsdf + Copy> TwoSided<M, M> {
     /// The same model on both sides.
     #[inline]
-    pub fn same(model: F) -> Self {
+    pub fn same(model: M) -> Self {
         Self { front: model, back: model }
     }
 }

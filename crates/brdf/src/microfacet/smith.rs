@@ -147,3 +147,115 @@ impl<T: Real> Microfacets<T> {
 fn upright<V: Vector3>(w: V) -> V {
     if w.z() < V::Scalar::ZERO { w.flip_z() } else { w }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use etendue_math::glam::DVec3;
+    use etendue_math::quadrature::gauss_legendre;
+
+    const EXACT: Distribution = Distribution::Beckmann { lambda: BeckmannLambda::Exact };
+    const WALTER: Distribution = Distribution::Beckmann { lambda: BeckmannLambda::Walter };
+
+    fn facets(distribution: Distribution, x: f64, y: f64, masking: Masking) -> Microfacets<f64> {
+        Microfacets::new(distribution, Alpha::new(x).unwrap(), Alpha::new(y).unwrap(), masking)
+    }
+
+    fn polar(cos: f64, phi: f64) -> DVec3 {
+        let sin = (1.0 - cos * cos).sqrt();
+        DVec3::new(sin * Real::cos(phi), sin * Real::sin(phi), cos)
+    }
+
+    /// `∫ D(h) g(h) dh` over the upper hemisphere.
+    fn integrate(facets: &Microfacets<f64>, g: impl Fn(DVec3) -> DVec3) -> DVec3 {
+        let mut sum = DVec3::ZERO;
+        for (t, w) in gauss_legendre::<f64, 96>() {
+            for i in 0..192 {
+                // cos θ = 1 − t² crowds the nodes around the normal.
+                let h = polar(1.0 - t * t, f64::PI * (f64::from(i) + 0.5) / 96.0);
+                sum += g(h) * (facets.ndf(h) * w * 2.0 * t * f64::PI / 96.0);
+            }
+        }
+        sum
+    }
+
+    #[test]
+    fn the_facets_cover_the_mean_surface_and_the_visible_ones_their_projected_area() {
+        for distribution in [Distribution::Ggx, EXACT] {
+            let facets = facets(distribution, 0.3, 0.6, Masking::Separable);
+            let covered = integrate(&facets, |h| DVec3::splat(h.z)).x;
+            assert!((covered - 1.0).abs() < 1e-5, "{distribution:?} {covered}");
+            for cos in [1.0, 0.6, 0.2] {
+                let w = polar(cos, 0.7);
+                let seen = integrate(&facets, |h| DVec3::splat(w.dot(h).max(0.0))).x;
+                // The kink of max(w·h, 0) limits the rule.
+                assert!((seen - facets.projected_area(w)).abs() < 1e-4, "{distribution:?} {cos}");
+            }
+        }
+    }
+
+    #[test]
+    fn sampled_normals_have_the_moments_of_the_visible_ones() {
+        for distribution in [Distribution::Ggx, EXACT] {
+            let facets = facets(distribution, 0.3, 0.6, Masking::Separable);
+            for cos in [1.0, 0.6, 0.2] {
+                let w = polar(cos, 0.7);
+                let area = facets.projected_area(w);
+                // First moments, and second ones of the same vector.
+                for moment in [|h: DVec3| h, |h: DVec3| h * h] {
+                    let want = integrate(&facets, |h| moment(h) * (w.dot(h).max(0.0) / area));
+                    let mut mean = DVec3::ZERO;
+                    for i in 0..128 {
+                        for j in 0..128 {
+                            let u = [(f64::from(i) + 0.5) / 128.0, (f64::from(j) + 0.5) / 128.0];
+                            let h = facets.sample_visible_normal(w, u).unwrap();
+                            mean += moment(h) / 16384.0;
+                        }
+                    }
+                    // Midpoint rule on 128² points of a map with steep corners.
+                    assert!((mean - want).length() < 1e-3, "{distribution:?} {cos} {mean} {want}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn masking_stays_within_zero_and_one_and_joint_masking_is_darker_when_separable() {
+        for cos in [1.0, 0.5, 1e-2, 1e-5, 1e-9] {
+            let (a, b) = (polar(cos, 0.3), polar(0.4, 2.0));
+            for distribution in [Distribution::Ggx, EXACT, WALTER] {
+                let joint = |masking| facets(distribution, 0.4, 0.4, masking).g2(a, b);
+                let (high, low) = (joint(Masking::HeightCorrelated), joint(Masking::Separable));
+                assert!(low <= high * (1.0 + 1e-14) && low >= 0.0 && high <= 1.0 + 1e-14);
+                let g1 = facets(distribution, 0.4, 0.4, Masking::Separable).g1(a);
+                assert!((0.0..=1.0 + 1e-14).contains(&g1), "{distribution:?} {cos} {g1}");
+            }
+        }
+    }
+
+    #[test]
+    fn walters_fit_is_as_good_as_it_says() {
+        for i in 1..=200 {
+            let w = polar(f64::from(i) / 200.0, 0.0);
+            let g1 = |distribution| facets(distribution, 0.5, 0.5, Masking::Separable).g1(w);
+            assert!((g1(WALTER) / g1(EXACT) - 1.0).abs() < 3.6e-3, "{i}");
+        }
+    }
+
+    #[test]
+    fn a_narrow_lobe_keeps_its_digits_in_single_precision() {
+        use etendue_math::glam::Vec3 as Vec3f;
+        for alpha in [1e-2_f32, 1e-4, 1e-6, 1e-8] {
+            let h = Vec3f::new(alpha * 0.7, alpha * 0.4, 1.0);
+            let wide = h.as_dvec3();
+            let a = f64::from(alpha);
+            for (narrow, exact) in [
+                (ggx::ndf::<f32>(h, alpha, alpha), ggx::ndf::<f64>(wide, a, a)),
+                (beckmann::ndf::<f32>(h, alpha, alpha), beckmann::ndf::<f64>(wide, a, a)),
+            ] {
+                // A dozen roundings.
+                assert!((f64::from(narrow) / exact - 1.0).abs() < 12.0 * f64::from(f32::EPSILON));
+            }
+        }
+    }
+}
