@@ -2,6 +2,7 @@
 
 use etendue_math::glam::{DVec3, Vec3};
 use etendue_math::{Real, Vector3};
+use etendue_sampling::warp::disk;
 
 use super::sphere::{azimuth, round_point};
 use super::surface::LocalSurface;
@@ -85,9 +86,8 @@ impl Disk {
     }
 
     pub(crate) fn sample_area(&self, u: [f32; 2]) -> ShapeSample {
-        let r = Real::sqrt(f64::from(u[0]));
-        let (sin, cos) = Real::sin_cos(2.0 * <f64 as Real>::PI * f64::from(u[1]));
-        let s = self.at(r * cos, r * sin);
+        let [x, y] = disk::from_square(u.map(f64::from));
+        let s = self.at(x, y);
         ShapeSample {
             position: s.position,
             error: s.error,

@@ -108,6 +108,15 @@ impl TriangleMesh {
         &self.triangles
     }
 
+    /// The same mesh with other vertex normals, or with none.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn with_normals(self, normals: Vec<Vec3>) -> Result<Self, MeshError> {
+        let mesh = Self::new(self.positions, normals, self.uvs, self.triangles)?;
+        Ok(Self { flipped: self.flipped, ..mesh })
+    }
+
     /// The same mesh with front and back exchanged.
     pub fn flipped(self) -> Self {
         Self { flipped: !self.flipped, ..self }

@@ -19,6 +19,7 @@ mod ray;
 mod rectangle;
 mod sample;
 mod scene;
+mod seen;
 mod shape;
 mod sphere;
 mod surface;

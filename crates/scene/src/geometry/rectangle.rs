@@ -1,6 +1,5 @@
 //! Rectangles.
 
-use etendue_math::Vector3;
 use etendue_math::glam::Vec3;
 
 use super::surface::LocalSurface;
@@ -85,14 +84,5 @@ impl Rectangle {
             uv: [u, v],
             pdf_area: 1.0 / self.area(),
         }
-    }
-
-    /// Corner and edges if the edges are orthogonal.
-    pub(crate) fn right_angled(&self) -> Option<(Vec3, [Vec3; 2])> {
-        let [a, b, _, d] = self.corners;
-        let (x, y) = (b - a, d - a);
-        // What rounding the corners leaves of a right angle, with room to spare.
-        let tolerance = 1e-5 * Vector3::length(x) * Vector3::length(y);
-        (x.dot(y).abs() <= tolerance).then_some((a, [x, y]))
     }
 }

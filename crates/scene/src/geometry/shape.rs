@@ -1,12 +1,11 @@
 //! The shapes a scene is made of.
 
-use etendue_math::glam::Vec3;
+use etendue_sampling::warp;
 
-use super::sample::solid_angle_density;
 use super::surface::LocalSurface;
 use super::{
-    Aabb, Cylinder, Disk, Hit, MeshError, Ray, Rectangle, ShapeSample, Sphere, SurfacePoint,
-    TransformError, TriangleMesh, triangle,
+    Aabb, Cylinder, Disk, Hit, MeshError, Ray, Rectangle, ShapeSample, Sphere, TransformError,
+    TriangleMesh, triangle,
 };
 
 /// A shape of a scene, by its place in the scene's list.
@@ -111,45 +110,15 @@ impl Shape {
             return None;
         }
         Some(match self {
-            Self::Mesh(mesh) => mesh.at(primitive, triangle::uniform(u)),
+            Self::Mesh(mesh) => {
+                let [_, b1, b2] = warp::triangle::from_square(u);
+                mesh.at(primitive, [b1, b2])
+            }
             Self::Sphere(s) => s.sample_area(u),
             Self::Rectangle(s) => s.at(u),
             Self::Disk(s) => s.sample_area(u),
             Self::Cylinder(s) => s.sample_area(u),
         })
-    }
-
-    /// A point of a primitive drawn for a reference point that it illuminates, and its density with
-    /// respect to solid angle there; `None` where nothing can be drawn.
-    ///
-    /// The sample may face away from the reference point or lie below its horizon.
-    pub fn sample_from(
-        &self,
-        primitive: u32,
-        reference: Vec3,
-        u: [f32; 2],
-    ) -> Option<(ShapeSample, f32)> {
-        if let Self::Sphere(sphere) = self {
-            return if primitive == 0 { sphere.sample_from(reference, u) } else { None };
-        }
-        let s = self.sample_area(primitive, u)?;
-        let pdf = solid_angle_density(s.pdf_area, reference, s.position, s.normal);
-        (pdf > 0.0).then_some((s, pdf))
-    }
-
-    /// The density, with respect to solid angle at `reference`, with which
-    /// [`sample_from`](Self::sample_from) draws a point of this shape on its primitive
-    /// `point.primitive`.
-    pub fn pdf_from(&self, reference: Vec3, point: &SurfacePoint) -> f32 {
-        if let Self::Sphere(sphere) = self {
-            return sphere.pdf_from(reference, point.position, point.normal);
-        }
-        let area = self.primitive_area(point.primitive);
-        if area > 0.0 {
-            solid_angle_density(1.0 / area, reference, point.position, point.normal)
-        } else {
-            0.0
-        }
     }
 
     /// Where a ray meets a shape that is not made of triangles.

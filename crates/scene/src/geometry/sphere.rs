@@ -2,8 +2,8 @@
 
 use etendue_math::glam::{DVec3, Vec3};
 use etendue_math::{Real, Vector3};
+use etendue_sampling::warp::uniform_sphere;
 
-use super::sample::solid_angle_density;
 use super::surface::LocalSurface;
 use super::{Aabb, Ray, ShapeError, ShapeSample, Transform};
 
@@ -55,6 +55,14 @@ impl Sphere {
     /// The radius in world space.
     pub fn radius(&self) -> f32 {
         self.radius as f32
+    }
+
+    pub(crate) fn exact_center(&self) -> DVec3 {
+        self.center
+    }
+
+    pub(crate) fn exact_radius(&self) -> f64 {
+        self.radius
     }
 
     /// The surface area, `4 π r²`.
@@ -152,7 +160,8 @@ impl Sphere {
         }
     }
 
-    fn sample_at(&self, outward: DVec3) -> ShapeSample {
+    /// The point in an outward unit direction from the centre, as a sample.
+    pub(crate) fn sample_at(&self, outward: DVec3) -> ShapeSample {
         let s = self.at(outward);
         ShapeSample {
             position: s.position,
@@ -164,61 +173,8 @@ impl Sphere {
     }
 
     pub(crate) fn sample_area(&self, u: [f32; 2]) -> ShapeSample {
-        let z = 1.0 - 2.0 * f64::from(u[0]);
-        let ring = Real::safe_sqrt(1.0 - z * z);
-        let (sin, cos) = Real::sin_cos(2.0 * <f64 as Real>::PI * f64::from(u[1]));
-        self.sample_at(DVec3::new(ring * cos, ring * sin, z))
+        self.sample_at(uniform_sphere::from_square(u.map(f64::from)))
     }
-
-    /// `1 − cos θ` of the cone that the sphere fills, and `sin² θ`; `None` from inside.
-    fn cone(&self, reference: Vec3) -> Option<(f64, f64)> {
-        let l = self.center - reference.as_dvec3();
-        let squared = l.dot(l);
-        let r2 = self.radius * self.radius;
-        if !(squared > r2) {
-            return None;
-        }
-        let sin2 = r2 / squared;
-        // 1 − √(1 − s²) without cancellation for far spheres.
-        Some((sin2 / (1.0 + Real::sqrt(1.0 - sin2)), sin2))
-    }
-
-    /// Uniform in the cone of directions that meet the sphere; uniform over the area from inside.
-    ///
-    /// # Source
-    /// The point on the sphere: Akalin, "Sampling the visible sphere", in the form of Pharr,
-    /// Jakob, Humphreys, "Physically Based Rendering", 4th ed., section 6.2.4.
-    pub(crate) fn sample_from(&self, reference: Vec3, u: [f32; 2]) -> Option<(ShapeSample, f32)> {
-        let Some((one_minus_cos, sin2_max)) = self.cone(reference) else {
-            let sample = self.sample_area(u);
-            let pdf =
-                solid_angle_density(sample.pdf_area, reference, sample.position, sample.normal);
-            return (pdf > 0.0).then_some((sample, pdf));
-        };
-        // t = 1 − cos θ keeps its digits where cos θ does not.
-        let t = f64::from(u[0]) * one_minus_cos;
-        let (sin2, cos) = (t * (2.0 - t), 1.0 - t);
-        let cos_alpha = sin2 / Real::sqrt(sin2_max) + cos * Real::safe_sqrt(1.0 - sin2 / sin2_max);
-        let sin_alpha = Real::safe_sqrt((1.0 - cos_alpha) * (1.0 + cos_alpha));
-        let towards = Vector3::try_normalize(reference.as_dvec3() - self.center)?;
-        let frame = etendue_math::Frame::<f64>::from_normal(towards);
-        let (sin, cos) = Real::sin_cos(2.0 * <f64 as Real>::PI * f64::from(u[1]));
-        let local = DVec3::new(sin_alpha * cos, sin_alpha * sin, cos_alpha);
-        Some((self.sample_at(frame.to_world(local)), cone_density(one_minus_cos)))
-    }
-
-    pub(crate) fn pdf_from(&self, reference: Vec3, position: Vec3, normal: Vec3) -> f32 {
-        match self.cone(reference) {
-            Some((one_minus_cos, _)) => cone_density(one_minus_cos),
-            None => solid_angle_density(1.0 / self.area(), reference, position, normal),
-        }
-    }
-}
-
-/// `1 / (2 π (1 − cos θ))`, or 0 where that overflows: nothing of such a sphere is visible.
-fn cone_density(one_minus_cos: f64) -> f32 {
-    let pdf = (0.5 * <f64 as Real>::FRAC_1_PI / one_minus_cos) as f32;
-    if pdf.is_finite() { pdf } else { 0.0 }
 }
 
 /// A point computed in `f64` as the sum of an anchor and a vector of length up to `reach`, rounded

@@ -51,16 +51,6 @@ pub(crate) fn area(corners: &Corners) -> f32 {
     (0.5 * length((v1 - v0).cross(v2 - v0))) as f32
 }
 
-/// Barycentric weights of the second and third corner, uniform over the area.
-///
-/// ```text
-/// b₁ = √u₀ (1 − u₁),  b₂ = √u₀ u₁      (b₀ = 1 − √u₀)
-/// ```
-pub(crate) fn uniform([u0, u1]: [f32; 2]) -> [f32; 2] {
-    let s = Real::safe_sqrt(u0);
-    [s * (1.0 - u1), s * u1]
-}
-
 fn length(v: DVec3) -> f64 {
     Real::sqrt(v.dot(v))
 }
