@@ -165,6 +165,7 @@ impl FieldOfView {
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Camera {
+    projection: Projection,
     to_world: Transform,
     near: f32,
     far: f32,
@@ -230,6 +231,7 @@ impl Camera {
         let half_height = half_width * height / width;
         let pixel = 2.0 * half_width / width;
         Ok(Self {
+            projection,
             to_world,
             near,
             far,
@@ -289,6 +291,11 @@ impl Camera {
             Optics::Lens { .. } => "thin lens",
             Optics::Parallel { .. } => "orthographic",
         }
+    }
+
+    /// What the camera was made from.
+    pub fn projection(&self) -> Projection {
+        self.projection
     }
 
     /// Where the camera stands, in world coordinates.

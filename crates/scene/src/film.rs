@@ -169,7 +169,7 @@ mod tests {
             (ReconstructionFilter::Tent { radius: 1.0 }, [1.0, 0.75, 0.5, 0.0, 0.0, 0.0, 0.0]),
             (
                 ReconstructionFilter::Mitchell { b: third, c: third },
-                [0.8888890, 0.7821181, 0.5347223, 0.0555556, -0.0234374, -0.0147567, 0.0],
+                [0.888889, 0.7821181, 0.5347223, 0.0555556, -0.0234374, -0.0147567, 0.0],
             ),
             (
                 ReconstructionFilter::CatmullRom,
@@ -177,7 +177,7 @@ mod tests {
             ),
             (
                 ReconstructionFilter::Lanczos { lobes: 3 },
-                [1.0, 0.8900670, 0.6079271, 0.0, -0.1328710, -0.0677913, 0.0243171],
+                [1.0, 0.890067, 0.6079271, 0.0, -0.132871, -0.0677913, 0.0243171],
             ),
         ];
         for (filter, expected) in cases {

@@ -215,7 +215,7 @@ impl Scene {
 
     /// The shape of an area light, which `new` has found to exist.
     #[inline]
-    fn shape_of(&self, light: &AreaLight) -> &Shape {
+    fn shape_of(&self, light: AreaLight) -> &Shape {
         &self.geometry.shapes()[light.shape.0 as usize]
     }
 
@@ -242,7 +242,7 @@ impl Scene {
         let from = reference.position;
         match self.lights.get(light.0 as usize)? {
             Light::Area(area) => {
-                let shape = self.shape_of(area);
+                let shape = self.shape_of(*area);
                 area.sample(shape, &self.textures, primitive, from, u)
             }
             Light::Point(light) => light.sample(from),
@@ -257,7 +257,7 @@ impl Scene {
     /// that a ray has hit, given the light and its primitive; 0 for a light that is no shape.
     pub fn light_pdf_hit(&self, light: LightId, from: Vec3, hit: &SurfacePoint) -> f32 {
         match self.lights.get(light.0 as usize) {
-            Some(Light::Area(area)) => self.shape_of(area).pdf_from(from, hit),
+            Some(Light::Area(area)) => self.shape_of(*area).pdf_from(from, hit),
             _ => 0.0,
         }
     }
@@ -307,8 +307,8 @@ impl Scene {
             let id = LightId(index as u32);
             match light {
                 Light::Area(area) => {
-                    let shape = self.shape_of(area);
-                    let of = |i| LightBounds::of_primitive(area, shape, &self.textures, i);
+                    let shape = self.shape_of(*area);
+                    let of = |i| LightBounds::of_primitive(*area, shape, &self.textures, i);
                     let primitives = 0..shape.primitive_count();
                     list.extend(primitives.filter_map(|i| Some((id, i, of(i)?))));
                 }
@@ -327,7 +327,7 @@ impl Scene {
     /// passes through a sphere around the shapes; 0 for a light that does not exist.
     pub fn light_power(&self, light: LightId) -> f32 {
         match self.lights.get(light.0 as usize) {
-            Some(Light::Area(area)) => area.power(&self.textures, self.shape_of(area).area_total()),
+            Some(Light::Area(area)) => area.power(&self.textures, self.shape_of(*area).area_total()),
             Some(Light::Point(light)) => light.power(),
             Some(Light::Spot(light)) => light.power(&self.textures),
             Some(Light::Directional(light)) => light.power(self.radius),

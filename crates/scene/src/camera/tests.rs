@@ -30,10 +30,10 @@ fn assert_ray(ray: Ray, origin: [f32; 3], direction: [f32; 3], t_max: f32) {
 fn perspective_rays_are_mitsubas() {
     // Values by Mitsuba 3.9.1 for the film point (15, 14), reached through a crop there.
     let angle = |axis| FieldOfView::Angle { degrees: 40.0, axis };
-    let along_x = ([0.841147, 1.83761, 2.55217], [-0.316347, -0.32339, -0.89182], 99.927467);
-    let along_y = ([0.826183, 1.84046, 2.55485], [-0.345003, -0.316665, -0.88357], 100.258682);
-    let diagonal = ([0.850126, 1.8359, 2.55057], [-0.298926, -0.3273, -0.896392], 99.773796);
-    let focal = ([0.82505, 1.84068, 2.55505], [-0.347151, -0.316145, -0.882914], 100.287560);
+    let along_x = ([0.841147, 1.83761, 2.55217], [-0.316347, -0.32339, -0.89182], 99.927_47);
+    let along_y = ([0.826183, 1.84046, 2.55485], [-0.345003, -0.316665, -0.88357], 100.258_68);
+    let diagonal = ([0.850126, 1.8359, 2.55057], [-0.298926, -0.3273, -0.896392], 99.773_8);
+    let focal = ([0.82505, 1.84068, 2.55505], [-0.347151, -0.316145, -0.882914], 100.287_56);
     for (field_of_view, (origin, direction, t_max)) in [
         (angle(FovAxis::X), along_x),
         (angle(FovAxis::Larger), along_x),
@@ -65,10 +65,10 @@ fn thin_lens_rays_are_mitsubas() {
     });
     let direction = [-0.344853, -0.389403, -0.854074];
     let ray = lens.ray([10.0, 18.0], [0.9, 0.5]);
-    assert_ray(ray, [0.670675, 1.80341, 2.60762], direction, 100.467018);
+    assert_ray(ray, [0.670675, 1.80341, 2.60762], direction, 100.467_02);
     let direction = [-0.397833, -0.337524, -0.853115];
     let ray = lens.ray([10.0, 18.0], [0.5, 0.1]);
-    assert_ray(ray, [0.811083, 1.67811, 2.6195], direction, 101.134315);
+    assert_ray(ray, [0.811083, 1.67811, 2.6195], direction, 101.134_315);
 }
 
 #[test]

@@ -23,7 +23,7 @@ impl AreaLight {
     /// shows its back.
     #[inline]
     pub(crate) fn sample(
-        &self,
+        self,
         shape: &Shape,
         textures: &Textures,
         primitive: u32,
@@ -49,7 +49,7 @@ impl AreaLight {
     /// Radiance that leaves a point of the shape towards `direction`; `None` on its back.
     #[inline]
     pub(crate) fn emitted(
-        &self,
+        self,
         textures: &Textures,
         point: &SurfacePoint,
         direction: Vec3,
@@ -58,7 +58,7 @@ impl AreaLight {
     }
 
     /// Power Φ = π A L of an area A in m², with the mean of the texture, in W.
-    pub(crate) fn power(&self, textures: &Textures, area: f32) -> f32 {
+    pub(crate) fn power(self, textures: &Textures, area: f32) -> f32 {
         f32::PI * area * textures.mean(self.radiance).luminance()
     }
 }

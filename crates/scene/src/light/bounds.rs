@@ -11,7 +11,7 @@ use crate::texture::Textures;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EmissionSides {
     /// The side of the normal.
-    Front,
+    One,
     /// Both.
     Both,
 }
@@ -44,7 +44,7 @@ impl LightBounds {
     /// Of one primitive of an area light: a triangle, or a whole shape of another kind. `None`
     /// where it has no area.
     pub(crate) fn of_primitive(
-        light: &AreaLight,
+        light: AreaLight,
         shape: &Shape,
         textures: &Textures,
         primitive: u32,
@@ -60,7 +60,7 @@ impl LightBounds {
             axis: if flat { normal } else { Vec3::Z },
             cos_theta_o: if flat { 1.0 } else { -1.0 },
             cos_theta_e: 0.0,
-            sides: EmissionSides::Front,
+            sides: EmissionSides::One,
         })
     }
 
@@ -72,7 +72,7 @@ impl LightBounds {
             axis: Vec3::Z,
             cos_theta_o: -1.0,
             cos_theta_e: 0.0,
-            sides: EmissionSides::Front,
+            sides: EmissionSides::One,
         }
     }
 
@@ -85,7 +85,7 @@ impl LightBounds {
             axis: light.axis(),
             cos_theta_o: Real::cos(beam_width),
             cos_theta_e: Real::cos(cutoff - beam_width),
-            sides: EmissionSides::Front,
+            sides: EmissionSides::One,
         }
     }
 }

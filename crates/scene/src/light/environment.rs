@@ -112,7 +112,7 @@ impl EnvironmentLight {
         let local = Vec3::new(sin_phi * sin_theta, cos_theta, -cos_phi * sin_theta);
         let radiance = self.at([place_u, v]);
         let pdf = solid_angle_density(pdf, sin_theta);
-        if radiance.is_black() || !(pdf > 0.0) {
+        if radiance.is_black() || pdf == 0.0 {
             return None;
         }
         Some(LightSample {

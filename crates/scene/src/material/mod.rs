@@ -236,3 +236,6 @@ impl Material {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -66,90 +66,89 @@ impl Materials {
         }
         let sides = match material {
             Some(&Material::TwoSided { front, back }) => {
-                let model = self.model(self.get(front), at);
+                let front_model = model(self.get(front), at);
                 Sides::Two(if front == back {
-                    TwoSided::same(model)
+                    TwoSided::same(front_model)
                 } else {
-                    TwoSided::new(model, self.model(self.get(back), at))
+                    TwoSided::new(front_model, model(self.get(back), at))
                 })
             }
-            material => Sides::Model(self.model(material, at)),
+            material => Sides::Model(model(material, at)),
         };
         PreparedBsdf::new(sides, opacity)
     }
+}
 
-    /// The model of a material that is made of no others.
-    #[inline]
-    fn model<'a>(&'a self, material: Option<&'a Material>, at: At) -> Model<'a> {
-        let Some(material) = material else { return Model::Null(Null::new()) };
-        match *material {
-            Material::Diffuse { reflectance } => {
-                Model::Lambert(Lambert::new(at.reflectance(reflectance)))
-            }
-            Material::RoughDiffuse { reflectance, sigma, form } => {
-                let reflectance = at.reflectance(reflectance);
-                let sigma = Sigma::clamped(at.textures.value(sigma, at.uv));
-                match form {
-                    OrenNayarForm::Full => Model::OrenNayar(OrenNayar::new(reflectance, sigma)),
-                    OrenNayarForm::Qualitative => {
-                        Model::OrenNayarQualitative(OrenNayarQualitative::new(reflectance, sigma))
-                    }
+/// The model of a material that is made of no others.
+#[inline]
+fn model<'a>(material: Option<&'a Material>, at: At) -> Model<'a> {
+    let Some(material) = material else { return Model::Null(Null::new()) };
+    match *material {
+        Material::Diffuse { reflectance } => {
+            Model::Lambert(Lambert::new(at.reflectance(reflectance)))
+        }
+        Material::RoughDiffuse { reflectance, sigma, form } => {
+            let reflectance = at.reflectance(reflectance);
+            let sigma = Sigma::clamped(at.textures.value(sigma, at.uv));
+            match form {
+                OrenNayarForm::Full => Model::OrenNayar(OrenNayar::new(reflectance, sigma)),
+                OrenNayarForm::Qualitative => {
+                    Model::OrenNayarQualitative(OrenNayarQualitative::new(reflectance, sigma))
                 }
             }
-            Material::Dielectric {
-                eta,
-                ref roughness,
-                specular_reflectance,
-                specular_transmittance,
-            } => {
-                let ks = at.reflectance(specular_reflectance);
-                let kt = at.reflectance(specular_transmittance);
-                let smooth = SmoothDielectric::new(eta).with_factors(ks, kt);
-                let Some(roughness) = roughness else { return Model::SmoothDielectric(smooth) };
-                match RoughDielectric::new(eta, at.facets(roughness)) {
-                    Ok(rough) => Model::RoughDielectric(rough.with_factors(ks, kt)),
-                    // Refused for equal indices only: no facet refracts, whatever its normal.
-                    Err(_) => Model::SmoothDielectric(smooth),
+        }
+        Material::Dielectric {
+            eta,
+            ref roughness,
+            specular_reflectance,
+            specular_transmittance,
+        } => {
+            let ks = at.reflectance(specular_reflectance);
+            let kt = at.reflectance(specular_transmittance);
+            let smooth = SmoothDielectric::new(eta).with_factors(ks, kt);
+            let Some(roughness) = roughness else { return Model::SmoothDielectric(smooth) };
+            match RoughDielectric::new(eta, at.facets(roughness)) {
+                Ok(rough) => Model::RoughDielectric(rough.with_factors(ks, kt)),
+                // Refused for equal indices only: no facet refracts, whatever its normal.
+                Err(_) => Model::SmoothDielectric(smooth),
+            }
+        }
+        Material::ThinDielectric { eta, specular_reflectance, specular_transmittance } => {
+            let ks = at.reflectance(specular_reflectance);
+            let kt = at.reflectance(specular_transmittance);
+            Model::ThinDielectric(ThinDielectric::new(eta).with_factors(ks, kt))
+        }
+        Material::Conductor { index, ref roughness, specular_reflectance } => {
+            let (ior, ks) = (at.complex_ior(index), at.reflectance(specular_reflectance));
+            match roughness {
+                None => {
+                    Model::SmoothConductor(SmoothConductor::new(ior).with_specular_reflectance(ks))
                 }
+                Some(roughness) => Model::RoughConductor(
+                    RoughConductor::new(ior, at.facets(roughness)).with_specular_reflectance(ks),
+                ),
             }
-            Material::ThinDielectric { eta, specular_reflectance, specular_transmittance } => {
-                let ks = at.reflectance(specular_reflectance);
-                let kt = at.reflectance(specular_transmittance);
-                Model::ThinDielectric(ThinDielectric::new(eta).with_factors(ks, kt))
+        }
+        Material::Plastic {
+            ref surface,
+            diffuse_reflectance,
+            specular_reflectance,
+            scattering,
+        } => {
+            let kd = at.reflectance(diffuse_reflectance);
+            let ks = at.reflectance(specular_reflectance);
+            match surface {
+                PlasticSurface::Smooth(interface) => Model::Plastic(
+                    Plastic::new(*interface, kd, scattering).with_specular_reflectance(ks),
+                ),
+                PlasticSurface::Rough(table) => Model::RoughPlastic(
+                    RoughPlastic::new(table, kd, scattering).with_specular_reflectance(ks),
+                ),
             }
-            Material::Conductor { index, ref roughness, specular_reflectance } => {
-                let (ior, ks) = (at.complex_ior(index), at.reflectance(specular_reflectance));
-                match roughness {
-                    None => Model::SmoothConductor(
-                        SmoothConductor::new(ior).with_specular_reflectance(ks),
-                    ),
-                    Some(roughness) => Model::RoughConductor(
-                        RoughConductor::new(ior, at.facets(roughness))
-                            .with_specular_reflectance(ks),
-                    ),
-                }
-            }
-            Material::Plastic {
-                ref surface,
-                diffuse_reflectance,
-                specular_reflectance,
-                scattering,
-            } => {
-                let kd = at.reflectance(diffuse_reflectance);
-                let ks = at.reflectance(specular_reflectance);
-                match surface {
-                    PlasticSurface::Smooth(interface) => Model::Plastic(
-                        Plastic::new(*interface, kd, scattering).with_specular_reflectance(ks),
-                    ),
-                    PlasticSurface::Rough(table) => Model::RoughPlastic(
-                        RoughPlastic::new(table, kd, scattering).with_specular_reflectance(ks),
-                    ),
-                }
-            }
-            // A mask or a two-sided material in a place for simple ones: `add` refuses it.
-            Material::Mask { .. } | Material::TwoSided { .. } | Material::Null => {
-                Model::Null(Null::new())
-            }
+        }
+        // A mask or a two-sided material in a place for simple ones: `add` refuses it.
+        Material::Mask { .. } | Material::TwoSided { .. } | Material::Null => {
+            Model::Null(Null::new())
         }
     }
 }

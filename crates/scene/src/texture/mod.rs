@@ -123,6 +123,16 @@ impl Textures {
         self.entries.get(id.0 as usize).map(|entry| &entry.texture)
     }
 
+    /// How many textures there are, constant ones included.
+    pub fn len(&self) -> usize {
+        self.entries.len()
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.entries.is_empty()
+    }
+
     /// The mean over the unit square of the untransformed texture: over the texels of a bitmap.
     pub fn mean(&self, id: TextureId) -> Color {
         self.entries.get(id.0 as usize).map_or(Color::black(), |entry| entry.mean)

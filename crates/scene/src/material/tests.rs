@@ -1,0 +1,207 @@
+use super::*;
+use crate::Color;
+use crate::texture::Textures;
+use etendue_brdf::{BeckmannLambda, Bsdf, Density};
+use etendue_math::glam::Vec3;
+use etendue_math::{Real, Spectrum};
+
+struct Studio {
+    textures: Textures,
+    materials: Materials,
+}
+
+impl Studio {
+    fn new() -> Self {
+        Self { textures: Textures::default(), materials: Materials::default() }
+    }
+
+    fn grey(&mut self, x: f32) -> TextureId {
+        self.textures.constant(Color::splat(x))
+    }
+
+    fn add(&mut self, material: Material) -> MaterialId {
+        self.materials.add(material).expect("a valid material")
+    }
+
+    fn diffuse(&mut self, albedo: f32) -> MaterialId {
+        let reflectance = self.grey(albedo);
+        self.add(Material::Diffuse { reflectance })
+    }
+
+    fn at(&self, id: MaterialId) -> PreparedBsdf<'_> {
+        self.materials.prepare(id, &self.textures, [0.5; 2])
+    }
+}
+
+const UP: Vec3 = Vec3::new(0.6, 0.0, 0.8);
+const DOWN: Vec3 = Vec3::new(0.6, 0.0, -0.8);
+
+/// One material of every kind.
+fn every_kind(s: &mut Studio) -> Vec<MaterialId> {
+    let (white, half, tenth) = (s.grey(1.0), s.grey(0.5), s.grey(0.1));
+    let eta = Ior::new(1.5).expect("an index");
+    let index = ConductorIndex::Complex { eta: tenth, k: white };
+    let beckmann = Distribution::Beckmann { lambda: BeckmannLambda::Walter };
+    let rough = |distribution| Roughness {
+        distribution,
+        masking: Masking::Separable,
+        alpha_u: tenth,
+        alpha_v: half,
+    };
+    let plastic = |surface| Material::Plastic {
+        surface,
+        diffuse_reflectance: half,
+        specular_reflectance: white,
+        scattering: InternalScattering::NonLinear,
+    };
+    let internal = InternalReflectance::Mitsuba;
+    let alpha = Alpha::clamped(0.2);
+    let rough_surface = PlasticSurface::rough(eta, beckmann, alpha, Masking::Separable, internal);
+    let dielectric = |roughness| Material::Dielectric {
+        eta,
+        roughness,
+        specular_reflectance: white,
+        specular_transmittance: half,
+    };
+    let conductor =
+        |roughness| Material::Conductor { index, roughness, specular_reflectance: half };
+    let rough_diffuse = |form| Material::RoughDiffuse { reflectance: half, sigma: half, form };
+    let mut all = Vec::from([s.diffuse(0.5)]);
+    for material in [
+        rough_diffuse(OrenNayarForm::Full),
+        rough_diffuse(OrenNayarForm::Qualitative),
+        conductor(None),
+        conductor(Some(rough(Distribution::Ggx))),
+        plastic(PlasticSurface::smooth(eta, internal)),
+        plastic(rough_surface),
+    ] {
+        let id = s.add(material);
+        all.push(id);
+        let two_sided = s.add(Material::TwoSided { front: id, back: all[0] });
+        all.push(two_sided);
+        all.push(s.add(Material::Mask { opacity: half, nested: two_sided }));
+    }
+    for material in [
+        dielectric(None),
+        dielectric(Some(rough(beckmann))),
+        Material::ThinDielectric { eta, specular_reflectance: half, specular_transmittance: white },
+        Material::Null,
+    ] {
+        all.push(s.add(material));
+    }
+    all
+}
+
+#[test]
+fn every_kind_of_material_samples_what_it_evaluates() {
+    let mut s = Studio::new();
+    for id in every_kind(&mut s) {
+        let bsdf = s.at(id);
+        for (wo, i) in [UP, DOWN].into_iter().flat_map(|wo| (0..32_u8).map(move |i| (wo, i))) {
+            let x = (f32::from(i) + 0.5) / 32.0;
+            let u = [x, (f32::from(i) * 0.618).fract()];
+            let Some(sample) = bsdf.sample(wo, x, u) else { continue };
+            let Density::Continuous(pdf) = sample.density else { continue };
+            let (value, density) = bsdf.eval_pdf(wo, sample.wi);
+            assert_eq!(value, bsdf.eval(wo, sample.wi));
+            assert_eq!(density, bsdf.pdf(wo, sample.wi));
+            let expected = value.scale(sample.wi.z.abs() / density);
+            // Facets of width 0.1 amplify the rounding of a direction, 1e-7, by 1/α² and more
+            // towards grazing angles.
+            let close = |a: f32, b: f32| (a - b).abs() <= 1e-3 * b.abs();
+            assert!(close(pdf, density), "{:?} {pdf} {density}", s.materials.get(id));
+            assert!(close(sample.weight.g, expected.g), "{:?}", s.materials.get(id));
+        }
+    }
+}
+
+#[test]
+fn two_sided_materials_have_a_back_and_others_are_black_there() {
+    let mut s = Studio::new();
+    let (light, dark) = (s.diffuse(0.8), s.diffuse(0.2));
+    let both = s.add(Material::TwoSided { front: light, back: dark });
+    let same = s.add(Material::TwoSided { front: light, back: light });
+    let albedo = |s: &Studio, id, wo| s.at(id).albedo(wo).map(|c| c.r);
+    assert_eq!([albedo(&s, both, UP), albedo(&s, both, DOWN)], [Some(0.8), Some(0.2)]);
+    assert_eq!(albedo(&s, same, DOWN), Some(0.8));
+    assert_eq!(albedo(&s, light, DOWN), Some(0.0));
+    assert_eq!(s.at(both).eval(UP, DOWN), Color::black());
+}
+
+#[test]
+fn masks_let_light_pass_and_multiply() {
+    let mut s = Studio::new();
+    let half = s.grey(0.5);
+    let paper = s.diffuse(0.8);
+    let once = s.add(Material::Mask { opacity: half, nested: paper });
+    let twice = s.add(Material::Mask { opacity: half, nested: once });
+    let f = 0.8 * f32::FRAC_1_PI;
+    assert_eq!(s.at(once).eval(UP, UP).r, 0.5 * f);
+    assert_eq!(s.at(twice).eval(UP, UP).r, 0.25 * f);
+    let passed = s.at(twice).sample(DOWN, 0.9, [0.5; 2]).expect("it is passed");
+    assert_eq!((passed.wi, passed.density), (-DOWN, Density::Delta(0.75)));
+    assert!(s.at(once).lobes().delta && !s.at(paper).lobes().delta);
+}
+
+#[test]
+fn values_outside_their_domain_are_moved_into_it() {
+    let mut s = Studio::new();
+    let bright = s.diffuse(1.5);
+    assert_eq!(s.at(bright).albedo(UP), Some(Color::white()));
+    let (zero, white) = (s.grey(0.0), s.grey(1.0));
+    let roughness = Roughness {
+        distribution: Distribution::Ggx,
+        masking: Masking::HeightCorrelated,
+        alpha_u: zero,
+        alpha_v: zero,
+    };
+    let mirror = s.add(Material::Conductor {
+        index: ConductorIndex::Mirror,
+        roughness: Some(roughness),
+        specular_reflectance: white,
+    });
+    let sample = s.at(mirror).sample(UP, 0.5, [0.5; 2]).expect("a mirror reflects");
+    // α = 10⁻⁴: within a few of it of the mirror direction, and all of the light.
+    assert!((sample.wi - Vec3::new(-0.6, 0.0, 0.8)).length() < 1e-3);
+    assert!((sample.weight.r - 1.0).abs() < 1e-3);
+}
+
+#[test]
+fn equal_indices_are_invisible_even_when_rough() {
+    let mut s = Studio::new();
+    let (tenth, white) = (s.grey(0.1), s.grey(1.0));
+    let roughness = Roughness {
+        distribution: Distribution::Ggx,
+        masking: Masking::HeightCorrelated,
+        alpha_u: tenth,
+        alpha_v: tenth,
+    };
+    let air = s.add(Material::Dielectric {
+        eta: Ior::new(1.0).expect("an index"),
+        roughness: Some(roughness),
+        specular_reflectance: white,
+        specular_transmittance: white,
+    });
+    let sample = s.at(air).sample(UP, 0.5, [0.5; 2]).expect("light passes");
+    assert!((sample.wi + UP).length() < 1e-6); // one refraction's rounding
+    assert_eq!((sample.weight, sample.density), (Color::white(), Density::Delta(1.0)));
+}
+
+#[test]
+fn impossible_compositions_are_refused() {
+    let mut s = Studio::new();
+    let (white, unknown) = (s.grey(1.0), MaterialId(9));
+    let refused = |s: &mut Studio, material| s.materials.add(material).err();
+    let mask = Material::Mask { opacity: white, nested: unknown };
+    assert_eq!(refused(&mut s, mask), Some(MaterialError::Unknown(9)));
+    let glass = s.add(Material::ThinDielectric {
+        eta: Ior::new(1.5).expect("an index"),
+        specular_reflectance: white,
+        specular_transmittance: white,
+    });
+    let paper = s.diffuse(0.5);
+    let two = Material::TwoSided { front: paper, back: glass };
+    assert_eq!(refused(&mut s, two), Some(MaterialError::TransmissiveSide));
+    let two = Material::TwoSided { front: paper, back: unknown };
+    assert_eq!(refused(&mut s, two), Some(MaterialError::Unknown(9)));
+}
