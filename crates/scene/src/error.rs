@@ -1,9 +1,9 @@
 //! What can be wrong with a scene, and where.
 
+use alloc::string::String;
+use alloc::vec::Vec;
 use core::fmt;
 use std::path::{Path, PathBuf};
-use std::string::String;
-use std::vec::Vec;
 
 /// A place in a file.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -76,7 +76,7 @@ impl SceneError {
         Self {
             kind: ErrorKind::Io,
             location: Location::file(path),
-            message: std::format!("cannot read: {error}"),
+            message: alloc::format!("cannot read: {error}"),
             help: None,
         }
     }

@@ -11,7 +11,8 @@ mod raster;
 use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
-use std::panic::{AssertUnwindSafe, catch_unwind};
+use core::panic::AssertUnwindSafe;
+use std::panic::catch_unwind;
 use std::path::Path;
 
 use crate::error::{Location, SceneError};

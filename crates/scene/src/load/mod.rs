@@ -1,4 +1,24 @@
-//! Loaders for the files a scene refers to.
+//! Loaders for the files a scene refers to: OBJ and MTL, PLY, Mitsuba's `serialized`, and images.
+//!
+//! | files | from a path | from bytes | result |
+//! | --- | --- | --- | --- |
+//! | OBJ, parts apart | [`load_obj`] | [`parse_obj`] | [`ObjScene`] |
+//! | OBJ as one mesh | [`load_obj_merged`] | [`parse_obj_merged`] | [`MeshFile`] |
+//! | MTL | [`load_mtl`] | [`parse_mtl`] | [`MtlMaterial`]s |
+//! | PLY | [`load_ply`] | [`parse_ply`] | [`MeshFile`] |
+//! | `serialized` | [`load_serialized`] | [`parse_serialized`] | [`MeshFile`] |
+//! | PNG, JPEG, BMP, TGA, HDR, EXR, PFM | [`load_image`] | [`parse_image`] | [`Image`] |
+//!
+//! # What is promised for untrusted files
+//! - No panic; malformed content is a [`SceneError`](crate::SceneError) with file and line or byte.
+//! - Meshes have no index out of range and no coordinate that is NaN or infinite.
+//! - Memory is proportional to the file: declared counts are checked against its size before
+//!   anything is allocated, and what a compressed file may unfold to is bounded.
+//! - Only regular files are opened; devices, pipes and directories are refused.
+//!
+//! # Non-goals
+//! Nothing here interprets: transforms, missing normals ([`smooth_normals`]), textures and BSDFs are
+//! the business of whoever asked for the file. Files are read whole, by one thread.
 
 mod file;
 mod image;

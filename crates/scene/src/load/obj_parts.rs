@@ -51,7 +51,7 @@ pub(super) struct Parts {
     material: Option<String>,
     current: Option<u32>,
     by_key: HashMap<(String, Option<String>), u32>,
-    parts: Vec<Part>,
+    all: Vec<Part>,
     first: Vec<Option<Binding>>,
     others: HashMap<(u32, Corner), u32>,
 }
@@ -72,12 +72,12 @@ impl Parts {
     /// The part that faces go to, made when its first face comes.
     fn current(&mut self) -> Option<u32> {
         if self.current.is_none() {
-            let fresh = u32::try_from(self.parts.len()).ok()?;
+            let fresh = u32::try_from(self.all.len()).ok()?;
             let key = (self.name.clone(), self.material.clone());
             let part = *self.by_key.entry(key).or_insert(fresh);
             if part == fresh {
                 let (name, material) = (self.name.clone(), self.material.clone());
-                self.parts.push(Part { name, material, ..Part::default() });
+                self.all.push(Part { name, material, ..Part::default() });
             }
             self.current = Some(part);
         }
@@ -94,7 +94,7 @@ impl Parts {
         normals: &[Vec3],
     ) -> Option<u32> {
         let current = self.current()?;
-        let part = &mut self.parts[current as usize];
+        let part = &mut self.all[current as usize];
         let fresh = u32::try_from(part.positions.len()).ok()?;
         if self.first.len() < positions.len() {
             self.first.resize(positions.len(), None);
@@ -121,13 +121,13 @@ impl Parts {
     /// Adds a triangle of vertices of the current part.
     pub(super) fn triangle(&mut self, vertices: [u32; 3]) {
         if let Some(current) = self.current {
-            self.parts[current as usize].triangles.push(vertices);
+            self.all[current as usize].triangles.push(vertices);
         }
     }
 
     /// The parts that have triangles, in order of first use.
     pub(super) fn into_vec(self) -> Vec<Part> {
-        let mut parts = self.parts;
+        let mut parts = self.all;
         parts.retain(|part| !part.triangles.is_empty());
         for part in &mut parts {
             if !part.has_uvs {

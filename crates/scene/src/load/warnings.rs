@@ -3,9 +3,8 @@
 use alloc::collections::BTreeSet;
 use alloc::format;
 use alloc::string::String;
-use alloc::vec::Vec;
 
-use crate::error::{Location, Warning};
+use crate::error::{Location, Warning, Warnings};
 
 /// How many kinds are reported: binary data read as text has thousands.
 const MOST_KINDS: usize = 20;
@@ -14,7 +13,7 @@ const MOST_KINDS: usize = 20;
 #[derive(Default)]
 pub(super) struct KindWarnings {
     seen: BTreeSet<String>,
-    warnings: Vec<Warning>,
+    warnings: Warnings,
 }
 
 impl KindWarnings {
@@ -31,11 +30,13 @@ impl KindWarnings {
         self.warnings.push(warning);
     }
 
-    pub(super) fn extend(&mut self, warnings: Vec<Warning>) {
+    /// Passes on the warnings of another file.
+    pub(super) fn extend(&mut self, warnings: Warnings) {
         self.warnings.extend(warnings);
     }
 
-    pub(super) fn into_vec(self) -> Vec<Warning> {
+    /// All warnings in the order they were found.
+    pub(super) fn into_vec(self) -> Warnings {
         self.warnings
     }
 }

@@ -7,8 +7,10 @@ use alloc::vec::Vec;
 use std::io::Cursor;
 use std::path::Path;
 
+use ::exr::block::chunk::CompressedBlock;
+use ::exr::block::reader::ChunksReader as _;
 use ::exr::meta::MetaData;
-use ::exr::prelude::{ReadChannels as _, ReadLayers as _, Vec2, read};
+use ::exr::prelude::{Compression, ReadChannels as _, ReadLayers as _, Vec2, read};
 
 use crate::error::SceneError;
 
@@ -25,6 +27,9 @@ pub(super) fn parse(bytes: &[u8], path: &Path) -> Result<Image, SceneError> {
             let message = format!("the channel '{}' is subsampled", channel.name);
             return Err(malformed(path, message).help("convert the image to RGB"));
         }
+    }
+    if meta.headers.iter().any(|h| is_dwa(h.compression)) {
+        check_dwa(bytes, &meta).map_err(|message| malformed(path, message))?;
     }
     // One thread: a panic on a worker of the decoder's own pool would end the process.
     let image = read()
@@ -51,6 +56,53 @@ pub(super) fn parse(bytes: &[u8], path: &Path) -> Result<Image, SceneError> {
     }
     let (width, height) = (width as u32, height as u32);
     Ok(Image { width, height, channels: chosen.len(), data, srgb_decoded: false })
+}
+
+fn is_dwa(compression: Compression) -> bool {
+    matches!(compression, Compression::DWAA(_) | Compression::DWAB(_))
+}
+
+/// Checks the sizes that DWA chunks declare. The decoder believes them: it would ask for up to 2⁶³
+/// bytes and so end the process, which no caller can stop.
+///
+/// ```text
+/// chunk    eleven u64: version, sizes of four compressed sections and of what they unfold to, mode
+/// ```
+///
+/// # Source
+/// OpenEXR, `internal_dwa_compressor.h`, `DataSizesSingle`.
+fn check_dwa(bytes: &[u8], meta: &MetaData) -> Result<(), String> {
+    const COUNTERS: usize = 11;
+    /// Room for padding to blocks of 8 × 8 pixels, however small the image.
+    const SLACK: u64 = 1 << 20;
+    let chunks = ::exr::block::read(Cursor::new(bytes), false).and_then(|r| r.all_chunks(false));
+    let mut chunks = chunks.map_err(|e| format!("{e}"))?;
+    while let Some(chunk) = chunks.read_next_chunk() {
+        let chunk = chunk.map_err(|e| format!("{e}"))?;
+        let Some(header) = meta.headers.get(chunk.layer_index) else { continue };
+        let content = match &chunk.compressed_block {
+            CompressedBlock::ScanLine(block) => &block.compressed_pixels_le,
+            CompressedBlock::Tile(block) => &block.compressed_pixels_le,
+            _ => continue,
+        };
+        if !is_dwa(header.compression) {
+            continue;
+        }
+        let place = header.get_block_data_indices(&chunk.compressed_block);
+        let place = place.and_then(|indices| header.get_absolute_block_pixel_coordinates(indices));
+        let pixels = place.map_err(|e| format!("{e}"))?.size.area();
+        let raw = pixels.saturating_mul(header.channels.bytes_per_pixel);
+        if content.len() == raw {
+            continue; // stored as it is, without counters
+        }
+        let most = SLACK + 4 * raw as u64;
+        let (counters, _) = content.as_chunks::<8>();
+        let mut sizes = counters.iter().take(COUNTERS).map(|&c| u64::from_le_bytes(c));
+        if let Some(size) = sizes.find(|&size| size > most) {
+            return Err(format!("a DWA chunk declares {size} values, more than the image has"));
+        }
+    }
+    Ok(())
 }
 
 /// The channels that make the picture, in order: `R G B` or `Y` with or without `A`, unnamed before

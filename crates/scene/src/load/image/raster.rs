@@ -72,7 +72,7 @@ fn integers<S: Sample>(samples: &[S], channels: usize, encoding: Encoding) -> (V
         return (samples.iter().map(|&s| at(&linear, s)).collect(), false);
     }
     let decoded: Vec<f32> = linear.iter().map(|&x| srgb::decode(x)).collect();
-    let colors = if channels % 2 == 0 { channels - 1 } else { channels };
+    let colors = if channels.is_multiple_of(2) { channels - 1 } else { channels };
     let data = samples.chunks_exact(channels).flat_map(|pixel| {
         let value = |(c, &s)| if c < colors { at(&decoded, s) } else { at(&linear, s) };
         pixel.iter().enumerate().map(value)

@@ -169,6 +169,33 @@ fn unknown_content_is_refused() {
     assert!(parse_image(b"", Path::new("a.tga"), Encoding::Srgb).is_err());
 }
 
+/// An EXR file with room for the counters of a DWA chunk, which a smaller one stores raw.
+fn dwa() -> Vec<u8> {
+    let ramp = FlatSamples::F16((0..256u16).map(|i| f16::from_f32(f32::from(i % 37))).collect());
+    let channels = ["B", "G", "R"].into_iter().map(|name| AnyChannel::new(name, ramp.clone()));
+    let encoding = Storage { compression: Compression::DWAA(None), ..Storage::SMALL_FAST_LOSSLESS };
+    let attributes = LayerAttributes::default();
+    let layer = Layer::new((16, 16), attributes, encoding, AnyChannels::sort(channels.collect()));
+    let mut bytes = Cursor::new(Vec::new());
+    ::exr::image::Image::from_layer(layer).write().to_buffered(&mut bytes).expect("memory");
+    bytes.into_inner()
+}
+
+#[test]
+fn dwa_chunks_that_declare_absurd_sizes_are_refused_before_memory_is_taken() {
+    let good = dwa();
+    assert_eq!(parse(&good, Encoding::Srgb).map(|i| (i.width(), i.channels())), Ok((16, 3)));
+    let mut refused = 0;
+    for at in 0..good.len() {
+        let mut altered = good.clone();
+        altered[at] ^= 0x40;
+        let error = parse(&altered, Encoding::Srgb).err();
+        refused += usize::from(error.is_some_and(|e| e.message.contains("a DWA chunk declares")));
+    }
+    // The upper bytes, from the fourth on, of each of the eleven counters.
+    assert!(refused >= 11 * 5, "{refused}");
+}
+
 #[test]
 fn truncated_and_altered_files_never_panic() {
     let picture =

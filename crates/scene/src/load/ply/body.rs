@@ -47,8 +47,9 @@ impl Body for Ascii<'_> {
     fn value(&mut self, _: Scalar) -> Option<f64> {
         let start = self.rest.iter().position(|b| !b.is_ascii_whitespace());
         let (space, word) = self.rest.split_at(start.unwrap_or(self.rest.len()));
-        let lines = space.iter().filter(|&&b| b == b'\n').count();
-        self.line = self.line.saturating_add(u32::try_from(lines).unwrap_or(u32::MAX));
+        for _ in space.iter().filter(|&&b| b == b'\n') {
+            self.line = self.line.saturating_add(1);
+        }
         let end = word.iter().position(u8::is_ascii_whitespace).unwrap_or(word.len());
         (self.last, self.rest) = word.split_at(end);
         core::str::from_utf8(self.last).ok()?.parse().ok()
