@@ -1,0 +1,42 @@
+//! How much work a run spends.
+
+/// Sizes of the generators.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Budget {
+    /// Name in the report.
+    pub name: &'static str,
+    /// View directions per case for checks that integrate or count samples.
+    pub viewers: usize,
+    /// Samples per χ² test.
+    pub samples: usize,
+    /// Samples that shape the cells of an integral.
+    pub pilot: usize,
+    /// Pairs of directions per case for pointwise laws.
+    pub pairs: usize,
+    /// Samples per case for pointwise laws of samplers.
+    pub draws: usize,
+}
+
+impl Budget {
+    /// For `cargo test`: every check on every case, in seconds on a debug-like build.
+    pub const TEST: Self =
+        Self { name: "test", viewers: 2, samples: 1 << 12, pilot: 1 << 10, pairs: 200, draws: 200 };
+    /// The default of the command: well under a minute on two cores.
+    pub const SMOKE: Self = Self {
+        name: "smoke",
+        viewers: 6,
+        samples: 1 << 16,
+        pilot: 1 << 12,
+        pairs: 10_000,
+        draws: 10_000,
+    };
+    /// `--exhaustive`: a long run that looks for what the smoke run has too few points to meet.
+    pub const EXHAUSTIVE: Self = Self {
+        name: "exhaustive",
+        viewers: 24,
+        samples: 1 << 20,
+        pilot: 1 << 14,
+        pairs: 4_000_000,
+        draws: 1_000_000,
+    };
+}

@@ -1,0 +1,9 @@
+//! Inputs: directions and uniforms, ordinary and hostile, all from fixed hashes.
+
+mod directions;
+mod hostile;
+mod uniforms;
+
+pub use directions::{from_angles, pair, unit_pair, viewers};
+pub use hostile::{HOSTILE_UNIFORMS, poisoned, unit_grid, unnormalised};
+pub use uniforms::uniforms;

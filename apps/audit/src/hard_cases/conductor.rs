@@ -1,0 +1,62 @@
+//! Conductor Fresnel near the dielectric limit.
+
+use etendue_brdf::fresnel::conductor;
+
+use super::{HardCase, decades, relative};
+use crate::measure::{Outcome, Worst};
+
+/// The common form takes the root of `√(t² + 4η²k²) + t`, which cancels for t < 0, and subtracts
+/// `2 a cos θ` from a sum it almost equals.
+pub(super) const CASE: HardCase = HardCase {
+    name: "small k, index near 1",
+    function: "fresnel::conductor",
+    sound: || sweep(conductor),
+    naive: || sweep(common),
+};
+
+/// Bound: 3e-6 relative, some twenty ulp for a complex root and four quotients; the naive form is
+/// off by more than its value.
+fn sweep(form: fn(f32, f32, f32) -> f32) -> Outcome {
+    let mut worst = Worst::default();
+    let indices =
+        decades(-6.0, -1.0, 12).flat_map(|d| [1.0 + d, 1.0 - d]).chain([0.0, 0.2, 1.5, 4.0]);
+    for eta in indices {
+        for k in decades(-5.0, 1.0, 25) {
+            for c in decades(-3.0, 0.0, 30) {
+                let want = exact(f64::from(c), f64::from(eta), f64::from(k));
+                worst.observe(relative(form(c, eta, k), want), || {
+                    format!("η {eta:?}, k {k:?}, cos {c:?}")
+                });
+            }
+        }
+    }
+    worst.within(3e-6, "relative")
+}
+
+/// The definition by complex numbers: `q = √(n² − sin²θ)`, `rs = (c − q)/(c + q)`,
+/// `rp = (n² c − q)/(n² c + q)`, in `f64`.
+fn exact(c: f64, eta: f64, k: f64) -> f64 {
+    let n2 = [(eta - k) * (eta + k), 2.0 * eta * k];
+    let x = (eta - 1.0) * (eta + 1.0) - k * k + c * c;
+    let modulus = (x * x + n2[1] * n2[1]).sqrt();
+    let large = (0.5 * (modulus + x.abs())).sqrt();
+    let small = if large > 0.0 { 0.5 * n2[1] / large } else { 0.0 };
+    let q = if x >= 0.0 { [large, small] } else { [small, large] };
+    let squared = |a: f64, b: f64| a * a + b * b;
+    let rs = squared(c - q[0], q[1]) / squared(c + q[0], q[1]);
+    let rp =
+        squared(n2[0] * c - q[0], n2[1] * c - q[1]) / squared(n2[0] * c + q[0], n2[1] * c + q[1]);
+    0.5 * (rs + rp)
+}
+
+fn common(c: f32, eta: f32, k: f32) -> f32 {
+    let (c2, s2) = (c * c, 1.0 - c * c);
+    let t0 = eta * eta - k * k - s2;
+    let sum = (t0 * t0 + 4.0 * eta * eta * k * k).sqrt();
+    let t1 = sum + c2;
+    let a = (0.5 * (sum + t0)).sqrt();
+    let t2 = 2.0 * a * c;
+    let rs = (t1 - t2) / (t1 + t2);
+    let (t3, t4) = (c2 * sum + s2 * s2, t2 * s2);
+    0.5 * (rs + rs * (t3 - t4) / (t3 + t4))
+}

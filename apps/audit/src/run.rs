@@ -1,0 +1,169 @@
+//! Every check on every case, on all cores.
+
+use etendue_brdf::registry::MODELS;
+use rayon::prelude::*;
+
+use crate::budget::Budget;
+use crate::cases::{self, ModelCases};
+use crate::checks::{self, Context, PRECISION};
+use crate::hard_cases::HARD_CASES;
+use crate::measure::{Outcome, Worst};
+use crate::scalar::Scalar;
+use crate::statistics::sidak;
+use crate::subject::{Case, Laws, Subject};
+
+/// Probability that a sound implementation fails any of the χ² tests of a run. Seeds are fixed:
+/// this was decided once, when the seeds were chosen, and does not vary from run to run.
+const OVERALL_SIGNIFICANCE: f64 = 0.01;
+
+/// One line of the report: a check on a case in a precision.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Record {
+    /// Model, or the function of a hard case.
+    pub model: &'static str,
+    /// Its parameters; empty for a hard case.
+    pub parameters: String,
+    /// `"f32"`, `"f64"`, or `"both"` for a check that compares them.
+    pub precision: &'static str,
+    /// The check.
+    pub check: &'static str,
+    /// What came of it.
+    pub outcome: Outcome,
+}
+
+/// A model with its cases in both precisions, built once per run.
+struct Built {
+    name: &'static str,
+    laws: Laws,
+    single: Vec<Case<f32>>,
+    double: Vec<Case<f64>>,
+}
+
+type Task<'a> = Box<dyn Fn() -> Record + Send + Sync + 'a>;
+
+/// Runs every check whose model or name contains `filter`, hard cases included.
+///
+/// Records come in the order models, parameters, precisions, checks, whatever the number of
+/// threads.
+pub fn run(budget: Budget, filter: &str) -> Vec<Record> {
+    let models = cases::models();
+    let built: Vec<Built> = models.iter().filter_map(Built::new).collect();
+    // Counted over all models, so that a filtered run judges as the full run does.
+    let tests: usize = built.iter().map(|b| 2 * b.single.len() * budget.viewers).sum();
+    let context = Context { budget, significance: sidak(OVERALL_SIGNIFICANCE, tests) };
+    let mut tasks: Vec<Task> = Vec::new();
+    for model in &built {
+        for (single, double) in model.single.iter().zip(&model.double) {
+            model.add_checks(&mut tasks, single, filter, context);
+            model.add_checks(&mut tasks, double, filter, context);
+            if matches(filter, model.name, PRECISION) {
+                tasks.push(Box::new(move || Record {
+                    model: model.name,
+                    parameters: single.parameters.clone(),
+                    precision: "both",
+                    check: PRECISION,
+                    outcome: checks::precision(
+                        &Subject { laws: &model.laws, case: single },
+                        double,
+                        &context,
+                    ),
+                }));
+            }
+        }
+    }
+    for hard in HARD_CASES.iter().filter(|h| matches(filter, h.function, h.name)) {
+        tasks.push(Box::new(|| Record {
+            model: hard.function,
+            parameters: String::new(),
+            precision: "f32",
+            check: hard.name,
+            outcome: hard.audit(),
+        }));
+    }
+    let mut records: Vec<Record> =
+        registration(&models).into_iter().filter(|r| matches(filter, r.model, r.check)).collect();
+    // Parallel collection keeps the order of the tasks.
+    records.par_extend(tasks.par_iter().map(|task| task()));
+    records
+}
+
+/// Every model of the registry has cases, and every case is of a model of the registry.
+pub fn registration(models: &[ModelCases]) -> Vec<Record> {
+    let registered = MODELS.iter().map(|info| info.name);
+    let strangers = models.iter().filter(|m| m.info().is_none()).map(|m| m.name);
+    let record = |name| {
+        let audited = models.iter().any(|m| m.name == name && m.info().is_some());
+        let mut worst = Worst::default();
+        worst.observe(f64::from(u8::from(!audited)), || {
+            "the registry and the cases of the audit do not both have it".to_owned()
+        });
+        Record {
+            model: name,
+            parameters: String::new(),
+            precision: "both",
+            check: "registration",
+            outcome: worst.within(0.0, "violations"),
+        }
+    };
+    registered.chain(strangers).map(record).collect()
+}
+
+fn matches(filter: &str, model: &str, check: &str) -> bool {
+    model.contains(filter) || check.contains(filter)
+}
+
+impl Built {
+    /// `None` for a model that is not in the registry, which [`registration`] reports.
+    fn new(model: &ModelCases) -> Option<Self> {
+        Some(Self {
+            name: model.name,
+            laws: Laws::from(model.info()?),
+            single: (model.single)(),
+            double: (model.double)(),
+        })
+    }
+
+    fn add_checks<'a, T: Scalar>(
+        &'a self,
+        tasks: &mut Vec<Task<'a>>,
+        case: &'a Case<T>,
+        filter: &str,
+        context: Context,
+    ) {
+        for check in checks::all::<T>() {
+            if matches(filter, self.name, check.name) {
+                tasks.push(Box::new(move || Record {
+                    model: self.name,
+                    parameters: case.parameters.clone(),
+                    precision: T::NAME,
+                    check: check.name,
+                    outcome: (check.run)(&Subject { laws: &self.laws, case }, &context),
+                }));
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::Totals;
+
+    #[test]
+    fn a_model_without_cases_and_cases_without_a_model_fail() {
+        let mut models = cases::models();
+        assert!(Totals::of(&registration(&models)).all_passed());
+        models[0].name = "stranger";
+        assert_eq!(Totals::of(&registration(&models)).failed, 2);
+    }
+
+    #[test]
+    fn records_do_not_depend_on_the_number_of_threads() {
+        let run_on = |threads| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            pool.install(|| run(Budget::TEST, "mask"))
+        };
+        let one = run_on(1);
+        assert!(one.len() > 20 && one == run_on(3));
+    }
+}

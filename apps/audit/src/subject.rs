@@ -1,0 +1,143 @@
+//! One model with one set of parameters in one precision, as checks see it.
+
+use etendue_brdf::registry::{Albedo, Energy, ModelInfo, Reciprocity};
+use etendue_brdf::{Bsdf, Density, Sample};
+use etendue_math::{Vec3, Vector3};
+
+use crate::generators::{from_angles, uniforms};
+use crate::partition::{Partition, coordinates};
+use crate::scalar::{Scalar, show, widen};
+
+/// What a model promises: the laws of its entry in the registry.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Laws {
+    /// Symmetry in the two directions.
+    pub reciprocity: Reciprocity,
+    /// Energy balance.
+    pub energy: Energy,
+    /// Where the directional albedo comes from.
+    pub albedo: Albedo,
+}
+
+impl From<&ModelInfo> for Laws {
+    fn from(info: &ModelInfo) -> Self {
+        Self { reciprocity: info.reciprocity, energy: info.energy, albedo: info.albedo }
+    }
+}
+
+/// Parameters and the model built with them.
+pub struct Case<T: Scalar> {
+    /// The parameters, as the report prints them.
+    pub parameters: String,
+    /// The model.
+    pub bsdf: Box<dyn Bsdf<Color = T> + Send + Sync>,
+    /// Its lobe fits between neighbouring `f32` directions: cells cannot resolve it and rounding
+    /// decides its value, so only what holds for any lobe is asked.
+    pub needle: bool,
+    /// Condition number of the model in its parameters: an η that has few digits between it and 1
+    /// gives a value of as few, however it is computed.
+    pub parameter_condition: f64,
+    /// Published directional albedos, `(θ in rad, albedo)`, that must be reproduced to the three
+    /// digits printed.
+    pub published: &'static [(f64, f64)],
+}
+
+impl<T: Scalar> Case<T> {
+    /// A case to which every check applies.
+    pub fn new(
+        parameters: impl Into<String>,
+        bsdf: impl Bsdf<Color = T> + Send + Sync + 'static,
+    ) -> Self {
+        Self {
+            parameters: parameters.into(),
+            bsdf: Box::new(bsdf),
+            needle: false,
+            parameter_condition: 1.0,
+            published: &[],
+        }
+    }
+
+    /// The same case, marked as a [`needle`](Self::needle).
+    pub fn needle(self) -> Self {
+        Self { needle: true, ..self }
+    }
+
+    /// The same case with the condition number of its parameters.
+    pub fn conditioned(self, parameter_condition: f64) -> Self {
+        Self { parameter_condition, ..self }
+    }
+
+    /// The same case with published albedos.
+    pub fn published(self, published: &'static [(f64, f64)]) -> Self {
+        Self { published, ..self }
+    }
+
+    /// Sample `index` of a stream.
+    pub fn draw(&self, wo: Vec3<T>, stream: u64, index: u64) -> Option<Sample<T>> {
+        let [lobe, a, b] = uniforms::<T>(stream, index);
+        self.bsdf.sample(wo, lobe, [a, b])
+    }
+
+    /// Cells of the sphere shaped by `count` samples.
+    pub fn partition(&self, wo: Vec3<T>, count: usize) -> Partition {
+        const PILOT_STREAM: u64 = 101;
+        let points: Vec<_> = (0..count as u64)
+            .filter_map(|i| self.draw(wo, PILOT_STREAM, i))
+            .filter(|s| matches!(s.density, Density::Continuous(_)))
+            .map(|s| coordinates(widen::<T>(s.wi)))
+            .collect();
+        Partition::new(points, count / 100)
+    }
+
+    /// η of the far side relative to the side of `wo`, as samples along the normal, where
+    /// transmission is likely, report it; 1 where nothing is transmitted.
+    pub fn relative_index(&self, wo: Vec3<T>) -> f64 {
+        const INDEX_STREAM: u64 = 102;
+        let normal = from_angles::<T>(if wo.z() < T::ZERO { -1.0 } else { 1.0 }, 0.0);
+        (0..256)
+            .filter_map(|i| self.draw(normal, INDEX_STREAM, i))
+            .find(|s| s.wi.z() * normal.z() < T::ZERO)
+            .map_or(1.0, |s| s.eta.to_f64())
+    }
+}
+
+/// A case with the laws it is held to.
+#[derive(Clone, Copy)]
+pub struct Subject<'a, T: Scalar> {
+    /// The laws.
+    pub laws: &'a Laws,
+    /// The case.
+    pub case: &'a Case<T>,
+}
+
+impl<T: Scalar> Subject<'_, T> {
+    /// A place as the report prints it.
+    pub fn at(&self, wo: Vec3<T>, wi: Vec3<T>) -> String {
+        format!("{}, {}, wo {}, wi {}", self.case.parameters, T::NAME, show::<T>(wo), show::<T>(wi))
+    }
+
+    /// A view direction as the report prints it.
+    pub fn at_view(&self, wo: Vec3<T>) -> String {
+        format!("{}, {}, wo {}", self.case.parameters, T::NAME, show::<T>(wo))
+    }
+}
+
+/// Rounding and conditioning of a function of a direction, the scale on which its error is judged.
+///
+/// ```text
+/// scale = ε |g(w)| + Σₖ max |g(w ± ε eₖ) − g(w)|
+/// ```
+///
+/// An error of 1 on this scale is what moving each component of a unit vector by one ulp of 1
+/// explains. Steps (an edge of total reflection) and underflow are covered as well as slopes.
+pub fn conditioned_ulp<T: Scalar>(w: Vec3<T>, epsilon: T, g: impl Fn(Vec3<T>) -> T) -> f64 {
+    let centre = g(w).to_f64();
+    let mut scale = epsilon.to_f64() * centre.abs();
+    let zero = T::ZERO;
+    for axis in [(epsilon, zero, zero), (zero, epsilon, zero), (zero, zero, epsilon)] {
+        let step = Vec3::<T>::new(axis.0, axis.1, axis.2);
+        let moved = [w + step, w - step].map(|w| (g(w).to_f64() - centre).abs());
+        scale += moved[0].max(moved[1]);
+    }
+    scale
+}
