@@ -10,10 +10,11 @@
 //! corner sees all others. Vertex colours and weights, smoothing groups, points, lines and free-form
 //! geometry are ignored. A vertex must be defined before the faces that use it.
 
+use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use etendue_math::glam::{Vec2, Vec3};
 
@@ -74,7 +75,8 @@ pub fn load_obj_merged(path: &Path, tex_coords: TexCoords) -> Result<MeshFile, S
 ///
 /// # Errors
 /// A missing, malformed or non-finite coordinate; an index that is malformed, 0 or beyond what is
-/// defined so far; an MTL file with malformed content.
+/// defined so far; an MTL file with malformed content;
+/// [`ErrorKind::Resource`](crate::ErrorKind::Resource) for more than 100 MTL files.
 ///
 /// # Examples
 /// ```
@@ -127,6 +129,9 @@ pub fn parse_obj_merged(
     Ok(MeshFile { name: stem(path), mesh, face_normals: false, warnings: scene.warnings })
 }
 
+/// The most MTL files of an OBJ file, lest a small file ask for endless reading.
+const MOST_LIBRARIES: usize = 100;
+
 struct Parser<'a> {
     path: &'a Path,
     tex_coords: TexCoords,
@@ -134,6 +139,7 @@ struct Parser<'a> {
     uvs: Vec<Vec2>,
     normals: Vec<Vec3>,
     parts: Parts,
+    libraries: BTreeSet<PathBuf>,
     warnings: KindWarnings,
 }
 
@@ -146,6 +152,7 @@ impl<'a> Parser<'a> {
             uvs: Vec::new(),
             normals: Vec::new(),
             parts: Parts::default(),
+            libraries: BTreeSet::new(),
             warnings: KindWarnings::default(),
         }
     }
@@ -228,6 +235,14 @@ impl<'a> Parser<'a> {
         let mut materials = Vec::new();
         let mut add = |name: &[u8]| -> Result<(), SceneError> {
             let path = relative(self.path, name);
+            if !self.libraries.insert(path.clone()) {
+                return Ok(());
+            }
+            if self.libraries.len() > MOST_LIBRARIES {
+                let message = format!("more than {MOST_LIBRARIES} material libraries");
+                let here = Location::line(self.path, line.number);
+                return Err(SceneError::resource(here, message));
+            }
             let (found, warnings) = parse_mtl(&read(&path)?, &path)?;
             materials.extend(found);
             self.warnings.extend(warnings);
@@ -257,10 +272,14 @@ impl<'a> Parser<'a> {
     }
 
     fn scene(mut self, materials: Vec<MtlMaterial>) -> Result<ObjScene, SceneError> {
+        let mut by_name = BTreeMap::new();
+        for (index, material) in materials.iter().enumerate() {
+            by_name.entry(material.name.as_str()).or_insert(index);
+        }
         let mut meshes = Vec::new();
         for part in self.parts.into_vec() {
             let material = part.material.as_ref().and_then(|name| {
-                let found = materials.iter().position(|m| m.name == *name);
+                let found = by_name.get(name.as_str()).copied();
                 if found.is_none() {
                     let kind = format!("undefined material {}", quote(name.as_bytes()));
                     self.warnings.add(|| Location::file(self.path), &kind);

@@ -162,6 +162,22 @@ fn missing_libraries_and_materials_are_warnings() {
 }
 
 #[test]
+fn a_library_is_read_once_and_there_are_not_endlessly_many() {
+    let mut reads = 0;
+    let text = "mtllib a.mtl\n".repeat(1000);
+    let s = parse_obj(text.as_bytes(), Path::new(PATH), TexCoords::AsWritten, |_| {
+        reads += 1;
+        Ok(b"newmtl a".to_vec())
+    });
+    assert_eq!((s.map(|s| s.materials.len()), reads), (Ok(1), 1));
+    let names: Vec<_> = (0..200).map(|i| format!("mtllib {i}")).collect();
+    let text = names.join("\n");
+    let many =
+        parse_obj(text.as_bytes(), Path::new(PATH), TexCoords::AsWritten, |_| Ok(Vec::new()));
+    assert_eq!(many.map_err(|e| e.kind), Err(ErrorKind::Resource));
+}
+
+#[test]
 fn a_malformed_library_is_an_error_of_its_own_file() {
     let read = |_: &Path| Ok(b"newmtl a\nKd x".to_vec());
     let error = parse_obj(b"mtllib m.mtl", Path::new("d/a.obj"), TexCoords::AsWritten, read);

@@ -95,6 +95,9 @@ pub(super) struct Header {
     pub(super) elements: Vec<Element>,
 }
 
+/// The most kinds of records; real files have two or three.
+const MOST_ELEMENTS: usize = 256;
+
 /// The header, the bytes after it, and the number of the line they begin with.
 pub(super) fn parse<'a>(
     bytes: &'a [u8],
@@ -128,6 +131,9 @@ pub(super) fn parse<'a>(
             Some("format") => format = Some(parse_format(words).map_err(at)?),
             Some("element") => {
                 let element = parse_element(words, number).map_err(at)?;
+                if elements.len() == MOST_ELEMENTS {
+                    return Err(at(format!("more than {MOST_ELEMENTS} elements")));
+                }
                 if elements.iter().any(|e| e.name == element.name) {
                     return Err(at(format!("the element '{}' is declared twice", element.name)));
                 }

@@ -155,6 +155,8 @@ fn counts_beyond_the_file_are_refused_before_memory_is_taken() {
 
 #[test]
 fn malformed_headers_name_their_line() {
+    let elements: Vec<_> = (0..300).map(|i| format!("element e{i} 0\n")).collect();
+    let endless = format!("ply\n{}", elements.concat());
     for (text, expected) in [
         ("", "a.ply:1: the file ends within the header"),
         ("plx\n", "a.ply:1: not a PLY file: the first line is not 'ply'"),
@@ -171,6 +173,7 @@ fn malformed_headers_name_their_line() {
             "ply\nelement a 1\nproperty list float int x\n",
             "a.ply:3: the length of a list is not of an integer type",
         ),
+        (&endless, "a.ply:258: more than 256 elements"),
         ("ply\nfoo\n", "a.ply:2: unknown header keyword 'foo'"),
     ] {
         assert_eq!(message(text), expected);
