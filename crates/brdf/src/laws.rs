@@ -96,7 +96,7 @@ pub(crate) fn albedo_is_closed_form<B: Bsdf>(model: &B, tolerance: f64) {
 
 /// No input gives a NaN, an infinity or a negative number.
 pub(crate) fn total<B: Bsdf>(model: &B) {
-    let hostile: std::vec::Vec<BsdfVec<B>> = hostile_directions::<BsdfReal<B>>().collect();
+    let hostile: alloc::vec::Vec<BsdfVec<B>> = hostile_directions::<BsdfReal<B>>().collect();
     for &wo in &hostile {
         for &wi in &hostile {
             let (f, pdf) = model.eval_pdf(wo, wi);

@@ -66,6 +66,9 @@
 #[cfg(any(feature = "std", test))]
 extern crate std;
 
+#[cfg(test)]
+extern crate alloc;
+
 mod bsdf;
 mod conductor;
 mod dielectric;

@@ -251,8 +251,8 @@ impl<T: Real> Opacity<T> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use alloc::string::ToString;
     use etendue_math::Rgb;
-    use std::string::ToString;
 
     #[test]
     fn every_type_refuses_nan_and_infinity() {

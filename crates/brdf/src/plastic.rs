@@ -101,7 +101,7 @@ impl<C: Spectrum> Plastic<C> {
         Self { specular, share: specular_share(specular, self.diffuse), ..self }
     }
 
-    /// `1 − F` times the probability of the mirror: what `sample` and `pdf` share.
+    /// Probability of choosing the mirror, given `1 − F(θo)`.
     #[inline(always)]
     fn mirror_probability(&self, cos_o: C::Real, transmittance: C::Real) -> C::Real {
         specular_probability(dielectric(cos_o, self.interface.eta), transmittance, self.share)

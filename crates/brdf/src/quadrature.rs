@@ -45,7 +45,7 @@ pub fn density_integral<B: Bsdf, const N: usize>(model: &B, wo: BsdfVec<B>) -> B
 fn over_sphere<T: Real, const N: usize>(mut visit: impl FnMut(Vec3<T>, T)) {
     let step = T::PI / T::lit(N as f64);
     for (t, w) in gauss_legendre::<T, N>() {
-        // cos θ = t (2 − t) has nodes crowded at the horizon's other end smoothed: dcos = 2 (1 − t) dt.
+        // cos θ = t (2 − t), d cos θ = 2 (1 − t) dt: smooth in θ at the normal, where lobes are narrow.
         let z = t * (T::TWO - t);
         let weight = w * T::TWO * (T::ONE - t) * step;
         let sin = ((T::ONE - z) * (T::ONE + z)).safe_sqrt();

@@ -276,9 +276,9 @@ pub const MODELS: &[ModelInfo] = &[
 #[cfg(test)]
 mod tests {
     use super::*;
+    use alloc::string::String;
+    use alloc::vec::Vec;
     use std::fs;
-    use std::string::String;
-    use std::vec::Vec;
 
     /// Types behind every `Bsdf for Type` in the sources.
     fn implementations() -> Vec<String> {

@@ -14,7 +14,7 @@ use super::checked_cosine;
 /// F = ½ (Rs + Rp)
 /// ```
 ///
-/// * `cos_i`: cosine c of the angle of incidence; see the [module](self).
+/// * `cos_i`: cosine c of the angle of incidence; see the [module](crate::fresnel).
 /// * `eta`, `k`: real part and extinction coefficient relative to the medium above, finite and not
 ///   negative; 0 is returned outside.
 ///

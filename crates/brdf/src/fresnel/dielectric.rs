@@ -13,7 +13,7 @@ use super::checked_cosine;
 /// F = ½ r² (1 + q²);   F = 1 where k + c² ≤ 0 (total internal reflection)
 /// ```
 ///
-/// * `cos_i`: cosine c of the angle of incidence; see the [module](self).
+/// * `cos_i`: cosine c of the angle of incidence; see the [module](crate::fresnel).
 /// * `eta`: η = n(transmitted side) / n(incident side), positive and finite; 0 is returned outside.
 ///
 /// Returns F in `[0, 1]`; 0 for η = 1.

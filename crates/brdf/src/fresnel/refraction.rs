@@ -140,7 +140,7 @@ mod tests {
             for _ in 0..100 {
                 let w = Vec3::new((1.0 - c * c).sqrt(), 0.0, c);
                 let d = w.as_dvec3();
-                let g2 = f64::from(eta).powi(2) - d.x * d.x / d.length_squared();
+                let g2 = Real::sqr(f64::from(eta)) - d.x * d.x / d.length_squared();
                 let cos_t = g2.max(0.0).sqrt() / f64::from(eta);
                 let got = refract(w, eta).map_or(0.0, |t| f64::from(-t.z));
                 // Two roundings of a number below 1.

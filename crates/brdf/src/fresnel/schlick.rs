@@ -11,7 +11,7 @@ use super::checked_cosine;
 /// ```
 ///
 /// * `f0`: reflectance at normal incidence, per channel in `[0, 1]`; a channel outside gives 0.
-/// * `cos_i`: cosine c of the angle of incidence; see the [module](self).
+/// * `cos_i`: cosine c of the angle of incidence; see the [module](crate::fresnel).
 ///
 /// # Precision
 /// Within 4 ulp of the formula: the fifth power is three products.
