@@ -91,11 +91,7 @@ fn false_colour(x: Color, r: Color) -> Color {
     }
     let relative = (x.luminance() - r.luminance()) / (r.luminance().abs() + 0.01);
     let intensity = relative.abs().min(1.0);
-    if relative > 0.0 {
-        Color::new(intensity, 0.0, 0.0)
-    } else {
-        Color::new(0.0, 0.0, intensity)
-    }
+    if relative > 0.0 { Color::new(intensity, 0.0, 0.0) } else { Color::new(0.0, 0.0, intensity) }
 }
 
 fn check_sizes(image: &Image, reference: &Image) -> Result<(), SizeMismatch> {
@@ -180,7 +176,7 @@ mod tests {
         let c = compare(&grey(&[1.0, 0.0]), &grey(&[2.0, 0.5])).expect("equal sizes");
         // ((1−2)² + (0−0.5)²)/2 and (1/(4+0.01) + 0.25/(0.25+0.01))/2, all numbers exact in f32.
         assert_eq!(c.mse, 0.625);
-        assert!((c.relative_mse - (1.0 / 4.01 + 0.25 / 0.26) / 2.0).abs() < 1e-15);
+        assert!((c.relative_mse - f64::midpoint(1.0 / 4.01, 0.25 / 0.26)).abs() < 1e-15);
         // 10 log₁₀(4/0.625) = 8.0618 dB, given to four decimals.
         assert!((c.psnr - 8.0618).abs() < 1e-4);
         assert_eq!(c.mean_difference, -1.5 / 2.5);

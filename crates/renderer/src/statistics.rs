@@ -110,8 +110,10 @@ mod tests {
     fn merging_in_any_order_keeps_the_same_first_addresses() {
         let parts = [part((0..30).rev()), part(100..103), part(7..50)];
         let (mut forward, mut backward) = (Statistics::default(), Statistics::default());
-        parts.iter().for_each(|p| forward.merge(p));
-        parts.iter().rev().for_each(|p| backward.merge(p));
+        for (first, last) in parts.iter().zip(parts.iter().rev()) {
+            forward.merge(first);
+            backward.merge(last);
+        }
         assert_eq!(forward, backward);
         assert_eq!(forward.non_finite.count(), 30 + 3 + 43);
         assert_eq!(forward.samples, 15);

@@ -1,7 +1,7 @@
 //! Cones of directions.
 
+use etendue_math::Real;
 use etendue_math::glam::Vec3;
-use etendue_math::{Real, Vector3};
 
 /// All directions within an angle of an axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,7 +31,7 @@ impl Cone {
             return *wide;
         }
         let theta = 0.5 * (theta_a + theta_d + theta_b);
-        if !(theta < f32::PI) {
+        if theta >= f32::PI {
             return Self::everything();
         }
         // The axis turns from the wide cone's towards the narrow one's.

@@ -6,4 +6,191 @@ mod cone;
 mod node;
 mod receiver;
 mod tree;
+
+use etendue_math::Real;
+use etendue_scene::Scene;
+use etendue_scene::light::{EmissionSides, LightBounds, LightId};
+
+use cluster::{Cluster, Faces};
+use cone::Cone;
 pub use receiver::{Receiver, Sides};
+use tree::LightTree;
+
+/// Chooses one light, or one triangle of an emitting mesh, for a point on a surface.
+///
+/// Finite lights hang in a light tree, and are chosen by a bound on the irradiance they can bring.
+/// Infinite ones (environment, constant, directional) share among themselves what the tree leaves:
+/// with n of them and a tree, n/(n+1), in proportion to their power.
+///
+/// A light that can light the receiver never has probability 0, and `probability` returns the bits
+/// that `choose` returned.
+///
+/// # Source
+/// Conty Estevez, Kulla, "Importance Sampling of Many Lights with Adaptive Tree Splitting",
+/// PACMCGIT 1(2), 2018; the share of infinite lights as in Pharr, Jakob, Humphreys, "Physically
+/// Based Rendering", 4th edition, section 12.6.3.
+#[derive(Clone, Debug)]
+pub struct LightSampler {
+    tree: LightTree,
+    /// Light and primitive of each emitter of the tree.
+    emitters: Vec<(LightId, u32)>,
+    /// For each light, the place of its primitive 0 in `emitter_of`.
+    first_primitive: Vec<u32>,
+    /// Emitter of each primitive of each light, or [`NOT_IN_TREE`].
+    emitter_of: Vec<u32>,
+    infinite: Vec<InfiniteLight>,
+    infinite_share: f32,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct InfiniteLight {
+    light: LightId,
+    /// Among the infinite lights; all sum to 1.
+    probability: f32,
+}
+
+/// A light, a primitive of it (a triangle of an emitting mesh, else 0), and the probability of
+/// having chosen both.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LightChoice {
+    /// The light.
+    pub light: LightId,
+    /// The primitive.
+    pub primitive: u32,
+    /// In (0, 1].
+    pub probability: f32,
+}
+
+const NOT_IN_TREE: u32 = u32::MAX;
+
+impl LightSampler {
+    /// Prepares the lights of a scene. Lights without power are never chosen.
+    pub fn new(scene: &Scene) -> Self {
+        let infinite: Vec<(LightId, f32)> = scene
+            .infinite_lights()
+            .iter()
+            .map(|&light| (light, scene.light_power(light)))
+            .collect();
+        Self::from_lights(&scene.finite_lights(), &infinite)
+    }
+
+    /// Prepares finite lights, primitive by primitive with their bounds, and infinite lights with
+    /// their power.
+    fn from_lights(finite: &[(LightId, u32, LightBounds)], infinite: &[(LightId, f32)]) -> Self {
+        let bright = |power: f32| power > 0.0 && power.is_finite();
+        let finite: Vec<_> = finite.iter().filter(|(_, _, bounds)| bright(bounds.power)).collect();
+        let clusters: Vec<Cluster> = finite.iter().map(|(_, _, bounds)| bounds.into()).collect();
+        let tree = LightTree::new(&clusters);
+        let emitters: Vec<(LightId, u32)> =
+            finite.iter().map(|&&(light, primitive, _)| (light, primitive)).collect();
+        let (first_primitive, emitter_of) = index_emitters(&emitters);
+
+        let total: f64 =
+            infinite.iter().filter(|(_, power)| bright(*power)).map(|(_, p)| f64::from(*p)).sum();
+        let infinite: Vec<InfiniteLight> = infinite
+            .iter()
+            .filter(|(_, power)| bright(*power))
+            .map(|&(light, power)| InfiniteLight {
+                light,
+                probability: (f64::from(power) / total) as f32,
+            })
+            .collect();
+        let rest = usize::from(!tree.is_empty());
+        let infinite_share = infinite.len() as f32 / (infinite.len() + rest).max(1) as f32;
+        Self { tree, emitters, first_primitive, emitter_of, infinite, infinite_share }
+    }
+
+    /// How many there are to choose from: with less than two, no random number is needed.
+    pub fn count(&self) -> usize {
+        self.emitters.len() + self.infinite.len()
+    }
+
+    /// Chooses a light by a uniform number `u` in `[0, 1)`. `None` where no light can reach the
+    /// receiver, or none was found that can: the light brought there is 0 then.
+    #[inline]
+    pub fn choose(&self, receiver: &Receiver, u: f32) -> Option<LightChoice> {
+        if u < self.infinite_share {
+            return self.choose_infinite(u / self.infinite_share);
+        }
+        let rest = 1.0 - self.infinite_share;
+        let u = ((u - self.infinite_share) / rest).min(f32::ONE_MINUS_EPSILON);
+        let chosen = self.tree.choose(receiver, u)?;
+        let (light, primitive) = self.emitters[chosen.emitter as usize];
+        Some(LightChoice { light, primitive, probability: rest * chosen.probability })
+    }
+
+    /// The probability with which [`choose`](Self::choose) returns this light and primitive, to the
+    /// bit; 0 for those that are unknown.
+    #[inline]
+    pub fn probability(&self, receiver: &Receiver, light: LightId, primitive: u32) -> f32 {
+        match self.emitter_of(light, primitive) {
+            Some(emitter) => (1.0 - self.infinite_share) * self.tree.probability(receiver, emitter),
+            None => self
+                .infinite
+                .iter()
+                .find(|infinite| infinite.light == light)
+                .map_or(0.0, |infinite| self.infinite_share * infinite.probability),
+        }
+    }
+
+    fn choose_infinite(&self, mut u: f32) -> Option<LightChoice> {
+        let last = self.infinite.len().checked_sub(1)?;
+        for (i, infinite) in self.infinite.iter().enumerate() {
+            // The last one takes what rounding leaves.
+            if u < infinite.probability || i == last {
+                let probability = self.infinite_share * infinite.probability;
+                return Some(LightChoice { light: infinite.light, primitive: 0, probability });
+            }
+            u -= infinite.probability;
+        }
+        None
+    }
+
+    #[inline]
+    fn emitter_of(&self, light: LightId, primitive: u32) -> Option<u32> {
+        let light = light.0 as usize;
+        let [first, end] = [light, light + 1].map(|l| self.first_primitive.get(l).copied());
+        let place = first?.checked_add(primitive)?;
+        if place >= end? {
+            return None;
+        }
+        Some(self.emitter_of[place as usize]).filter(|&emitter| emitter != NOT_IN_TREE)
+    }
+}
+
+/// Where each light's primitives begin in one table, and the table from primitive to emitter.
+fn index_emitters(emitters: &[(LightId, u32)]) -> (Vec<u32>, Vec<u32>) {
+    let lights = emitters.iter().map(|(light, _)| light.0 as usize + 1).max().unwrap_or(0);
+    let mut counts = vec![0_u32; lights];
+    for &(light, primitive) in emitters {
+        let count = &mut counts[light.0 as usize];
+        *count = (*count).max(primitive + 1);
+    }
+    let mut first = vec![0_u32];
+    first.extend(counts.iter().scan(0, |sum, count| {
+        *sum += count;
+        Some(*sum)
+    }));
+    let mut table = vec![NOT_IN_TREE; first[lights] as usize];
+    for (emitter, &(light, primitive)) in (0..).zip(emitters) {
+        table[(first[light.0 as usize] + primitive) as usize] = emitter;
+    }
+    (first, table)
+}
+
+impl From<&LightBounds> for Cluster {
+    fn from(light: &LightBounds) -> Self {
+        let faces = match light.sides {
+            EmissionSides::One => Faces::Front,
+            EmissionSides::Both => Faces::Both,
+        };
+        Self {
+            low: light.bounds.min,
+            high: light.bounds.max,
+            normals: Cone { axis: light.axis, cos_spread: light.cos_theta_o },
+            cos_emission: light.cos_theta_e,
+            faces,
+            power: light.power,
+        }
+    }
+}

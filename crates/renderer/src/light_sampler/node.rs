@@ -1,7 +1,7 @@
 //! One node of the light tree in 32 bytes, and its importance to a receiver.
 
+use etendue_math::Real;
 use etendue_math::glam::Vec3;
-use etendue_math::{Real, Vector3};
 
 use super::cluster::{Cluster, Faces};
 use super::receiver::{Receiver, Sides};

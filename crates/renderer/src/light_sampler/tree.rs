@@ -113,7 +113,7 @@ fn shares(pair: &Pair, receiver: &Receiver) -> Option<[f32; 2]> {
         (true, true) => {
             // 1 − first instead of b/(a + b): the second child is taken for all the rest of the
             // unit interval. A child of some importance keeps it in the face of rounding.
-            let first = (a / (a + b)).max(0.5 * f32::EPSILON).min(f32::ONE_MINUS_EPSILON);
+            let first = (a / (a + b)).clamp(0.5 * f32::EPSILON, f32::ONE_MINUS_EPSILON);
             Some([first, 1.0 - first])
         }
         (true, false) => Some([1.0, 0.0]),
@@ -127,7 +127,9 @@ mod tests {
     use super::*;
     use crate::light_sampler::receiver::Sides;
     use etendue_math::glam::Vec3;
-    use etendue_math::{Vector3, hash_u32};
+    use etendue_math::hash_u32;
+
+    const DRAWS: u32 = 20_000;
 
     fn random(seed: u32) -> f32 {
         f32::from_random_bits(u64::from(hash_u32(seed)) << 32)
@@ -164,7 +166,6 @@ mod tests {
     fn probabilities_sum_to_one_and_frequencies_follow_them() {
         let tree = LightTree::new(&random_clusters(20));
         let asked: Vec<f32> = (0..20).map(|e| tree.probability(&RECEIVER, e)).collect();
-        const DRAWS: u32 = 20_000;
         let mut counts = [0_u32; 20];
         // A cluster may be of importance where neither of its children is: nothing is chosen then.
         let mut nothing = 0_u32;
@@ -178,7 +179,7 @@ mod tests {
         let sum = asked.iter().sum::<f32>() + nothing as f32 / DRAWS as f32;
         // The share of nothing is known to a few draws.
         assert!((sum - 1.0).abs() < 1e-3, "{asked:?}");
-        assert!(nothing < DRAWS / 2);
+        assert!(counts.iter().filter(|&&count| count > 0).count() > 3);
         for (count, p) in counts.iter().zip(&asked) {
             // Equidistant numbers: a light's share is one interval per path, off by at most one
             // draw, and a few for rounding of the remapped u.

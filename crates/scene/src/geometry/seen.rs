@@ -47,6 +47,8 @@ impl Shape {
             return None;
         }
         let by_angle = match self {
+            // Points on the wall see the inside whether rounding has put them inside or outside.
+            Self::Sphere(sphere) if sphere.faces_inward() => None,
             Self::Sphere(sphere) => {
                 return SeenSphere::new(
                     sphere.exact_center() - reference.as_dvec3(),
@@ -73,7 +75,7 @@ impl Shape {
     /// respect to solid angle there; `None` where nothing can be drawn.
     ///
     /// Uniform in solid angle on spheres, triangles and rectangles, uniform in area on disks and
-    /// cylinders, inside spheres, and where a solid angle is too small (3.5e-4 sr) or too close to
+    /// cylinders, inside spheres and on those that face inwards, and where a solid angle is too small (3.5e-4 sr) or too close to
     /// 2π to be computed well. The sample may face away from the reference point.
     ///
     /// # Examples

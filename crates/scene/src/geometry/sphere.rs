@@ -57,6 +57,11 @@ impl Sphere {
         self.radius as f32
     }
 
+    /// Whether the front is inside.
+    pub(crate) fn faces_inward(&self) -> bool {
+        self.side < 0.0
+    }
+
     pub(crate) fn exact_center(&self) -> DVec3 {
         self.center
     }

@@ -1,0 +1,88 @@
+//! The same settings give the same bits, however the work is divided.
+
+use core::sync::atomic::{AtomicBool, Ordering};
+use std::sync::Mutex;
+
+use etendue_math::glam::DVec3;
+use etendue_scene::Scene;
+use etendue_scene::film::{Crop, ReconstructionFilter};
+use etendue_scene::scene::SamplerKind;
+
+use super::scenes::{Sketch, rectangle, settings, sphere};
+use crate::render::Rendering;
+use crate::{Progress, RenderSettings, Renderer, Strategy};
+
+fn scene() -> Scene {
+    let mut sketch = Sketch::default();
+    let (grey, black) = (sketch.grey(0.7), sketch.grey(0.0));
+    sketch.shape(rectangle(DVec3::ZERO, [4.0, 4.0], DVec3::Z), grey);
+    sketch.shape(sphere(DVec3::new(0.0, 0.0, 0.7), 0.7), grey);
+    sketch.emitter(rectangle(DVec3::new(1.0, 1.0, 3.0), [0.5, 0.5], -DVec3::Z), black, 10.0);
+    sketch.sky(0.3);
+    sketch.seen(DVec3::new(0.0, -4.0, 2.0), DVec3::ZERO, 50.0, [70, 45])
+}
+
+fn render(scene: &Scene, settings: RenderSettings) -> Rendering {
+    let renderer = Renderer::new(scene, settings).expect("threads");
+    renderer.render(&|_| (), &AtomicBool::new(false))
+}
+
+fn with_threads(threads: usize, sampler: SamplerKind) -> RenderSettings {
+    RenderSettings { threads, sampler, samples_per_pixel: 5, ..settings(Some(4), Strategy::Mis) }
+}
+
+#[test]
+fn one_two_and_seven_threads_give_the_same_bits() {
+    let mut scene = scene();
+    scene.film.filter = ReconstructionFilter::Gaussian { stddev: 0.5 };
+    for sampler in [SamplerKind::Independent, SamplerKind::Sobol] {
+        let one = render(&scene, with_threads(1, sampler));
+        assert!(one.image.mean().g > 0.1);
+        for threads in [2, 7] {
+            assert_eq!(one, render(&scene, with_threads(threads, sampler)));
+        }
+    }
+}
+
+#[test]
+fn a_crop_has_the_bits_of_the_whole_picture() {
+    let mut scene = scene();
+    let settings = with_threads(1, SamplerKind::Sobol);
+    let whole = render(&scene, settings.clone()).image;
+    let crop = Crop { offset: [13, 20], size: [30, 21] };
+    scene.film.crop = crop;
+    let part = render(&scene, settings).image;
+    for y in 0..crop.size[1] {
+        for x in 0..crop.size[0] {
+            let [column, row] = [x + crop.offset[0], y + crop.offset[1]];
+            assert_eq!(part.pixel([x, y]), whole.pixel([column, row]));
+        }
+    }
+}
+
+#[test]
+fn another_seed_gives_another_picture() {
+    let scene = scene();
+    let settings = with_threads(1, SamplerKind::Sobol);
+    let other = RenderSettings { seed: 2, ..settings.clone() };
+    assert_ne!(render(&scene, settings).image, render(&scene, other).image);
+}
+
+#[test]
+fn every_tile_is_reported_and_a_cancelled_render_stops() {
+    let scene = scene();
+    let renderer = Renderer::new(&scene, with_threads(1, SamplerKind::Sobol)).expect("a thread");
+    let seen = Mutex::new(Vec::new());
+    let record = |progress: Progress| seen.lock().expect("no panic").push(progress);
+    let rendering = renderer.render(&record, &AtomicBool::new(false));
+    let seen = seen.into_inner().expect("no panic");
+    // 70 × 45 pixels in tiles of 16.
+    assert_eq!(seen.len(), 5 * 3);
+    assert_eq!(seen.last(), Some(&rendering.progress));
+
+    let cancel = AtomicBool::new(false);
+    let stop = |_: Progress| cancel.store(true, Ordering::Relaxed);
+    let rendering = renderer.render(&stop, &cancel);
+    assert_eq!(rendering.progress, Progress { finished: 1, total: 15 });
+    assert_eq!(rendering.statistics.samples, 16 * 16 * 5);
+}

@@ -1,0 +1,63 @@
+//! Samples that are not numbers, and counts.
+
+use core::sync::atomic::AtomicBool;
+
+use etendue_math::Spectrum;
+use etendue_math::glam::DVec3;
+use etendue_scene::Color;
+use etendue_scene::scene::SamplerKind;
+
+use super::scenes::{Sketch, rectangle, settings, sphere};
+use crate::{NonFiniteSamples, RenderSettings, Renderer, SampleAddress, Strategy};
+
+fn two_samples_per_pixel() -> RenderSettings {
+    RenderSettings {
+        samples_per_pixel: 2,
+        sampler: SamplerKind::Sobol,
+        ..settings(Some(2), Strategy::Mis)
+    }
+}
+
+#[test]
+fn samples_that_overflow_are_counted_located_and_replayable() {
+    let mut sketch = Sketch::default();
+    let black = sketch.grey(0.0);
+    // The sky's two halves are finite, their sum is not.
+    sketch.sky(3e38);
+    sketch.sky(3e38);
+    sketch.shape(rectangle(DVec3::Y * 2.0, [1.0, 9.0], -DVec3::Y), black);
+    let scene = sketch.seen(DVec3::ZERO, DVec3::Y, 60.0, [20, 3]);
+    let renderer = Renderer::new(&scene, two_samples_per_pixel()).expect("a thread");
+    let rendering = renderer.render(&|_| (), &AtomicBool::new(false));
+
+    let non_finite = &rendering.statistics.non_finite;
+    assert!(non_finite.count() > 0);
+    assert!(non_finite.count() < rendering.statistics.samples);
+    assert_eq!(non_finite.first().len(), NonFiniteSamples::KEPT);
+    for &SampleAddress { row, column, sample } in non_finite.first() {
+        assert!(!Spectrum::is_finite(renderer.sample([column, row], sample)));
+    }
+    assert!(rendering.image.pixels().iter().all(|&pixel| Spectrum::is_finite(pixel)));
+}
+
+#[test]
+fn rays_are_counted_by_purpose_and_none_is_traced_for_nothing() {
+    let mut sketch = Sketch::default();
+    let white = sketch.textures.constant(Color::white());
+    let mirror = sketch.material(etendue_scene::material::Material::Conductor {
+        index: etendue_scene::material::ConductorIndex::Mirror,
+        roughness: None,
+        specular_reflectance: white,
+    });
+    sketch.shape(sphere(DVec3::ZERO, 100.0), mirror);
+    sketch.sky(1.0);
+    // Outside and towards the sphere: every camera ray meets the mirror, then the sky.
+    let scene = sketch.seen(DVec3::Y * -101.0, DVec3::ZERO, 20.0, [4, 4]);
+    let rendering = Renderer::new(&scene, two_samples_per_pixel())
+        .expect("a thread")
+        .render(&|_| (), &AtomicBool::new(false));
+    let rays = rendering.statistics.rays;
+    assert_eq!((rays.camera, rays.shadow, rays.indirect), (32, 0, 32));
+    assert_eq!(rays.total(), 64);
+    assert_eq!(rendering.image.pixel([2, 2]), Color::white());
+}

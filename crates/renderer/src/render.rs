@@ -1,0 +1,208 @@
+//! Rendering a whole picture on all processors.
+
+use core::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
+
+use etendue_math::Spectrum;
+use etendue_sampling::{Decision, Dimension, Independent, Sampler, Sobol};
+use etendue_scene::scene::SamplerKind;
+use etendue_scene::{Color, Scene};
+
+use crate::film::{FilterSampler, Image, PixelFilter, PixelSum};
+use crate::light_sampler::LightSampler;
+use crate::path::PathTracer;
+use crate::settings::RenderSettings;
+use crate::statistics::{RayCounts, SampleAddress, Statistics};
+use crate::tile::Tile;
+
+/// Renders one scene with one set of settings.
+///
+/// Every number of a sample is addressed by (seed, pixel, sample, decision), and every pixel sums
+/// its own samples in order: the picture has the same bits for any number of threads.
+pub struct Renderer<'a> {
+    scene: &'a Scene,
+    settings: RenderSettings,
+    lights: LightSampler,
+    filter: FilterSampler,
+    pool: rayon::ThreadPool,
+}
+
+/// The threads that a render needs could not be started.
+#[derive(Debug)]
+pub struct ThreadError(rayon::ThreadPoolBuildError);
+
+impl core::fmt::Display for ThreadError {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        write!(f, "the threads for rendering could not be started: {}", self.0)
+    }
+}
+
+impl core::error::Error for ThreadError {
+    fn source(&self) -> Option<&(dyn core::error::Error + 'static)> {
+        Some(&self.0)
+    }
+}
+
+/// How far a render is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Progress {
+    /// Tiles finished.
+    pub finished: usize,
+    /// Tiles in all.
+    pub total: usize,
+}
+
+/// A rendered picture.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Rendering {
+    /// The film's crop; pixels that a cancelled render did not reach are black.
+    pub image: Image,
+    /// What was done.
+    pub statistics: Statistics,
+    /// How far the render came: all tiles unless it was cancelled.
+    pub progress: Progress,
+}
+
+impl<'a> Renderer<'a> {
+    /// Prepares lights, filter and threads.
+    ///
+    /// # Errors
+    /// The threads cannot be started.
+    pub fn new(scene: &'a Scene, settings: RenderSettings) -> Result<Self, ThreadError> {
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(settings.threads)
+            .thread_name(|i| format!("render {i}"))
+            .build()
+            .map_err(ThreadError)?;
+        let lights = LightSampler::new(scene);
+        let filter = FilterSampler::new(&scene.film);
+        Ok(Self { scene, settings, lights, filter, pool })
+    }
+
+    /// Number of threads that render.
+    pub fn threads(&self) -> usize {
+        self.pool.current_num_threads()
+    }
+
+    /// Renders the film's crop.
+    ///
+    /// * `report` is called after every tile, by the thread that finished it.
+    /// * Once `cancel` is true, tiles under way are finished and no further ones begun.
+    pub fn render(&self, report: &(dyn Fn(Progress) + Sync), cancel: &AtomicBool) -> Rendering {
+        self.render_tiles(&Tile::cover(&self.scene.film.crop), report, cancel)
+    }
+
+    /// The radiance of one sample, weighted by the filter: what the picture's pixel is the mean of.
+    /// `pixel` is a column and a row of the full film.
+    pub fn sample(&self, pixel: [u32; 2], index: u32) -> Color {
+        match self.settings.sampler {
+            SamplerKind::Independent => self.sample_with::<Independent>(pixel, index),
+            SamplerKind::Sobol => self.sample_with::<Sobol>(pixel, index),
+        }
+    }
+
+    fn sample_with<S: Sampler>(&self, pixel: [u32; 2], index: u32) -> Color {
+        let points = S::at(self.settings.seed, pixel, u64::from(index));
+        let filter = self.filter.pixel(pixel);
+        self.path_sample(&self.tracer(), &filter, &points, &mut RayCounts::default())
+    }
+
+    fn render_tiles(
+        &self,
+        tiles: &[Tile],
+        report: &(dyn Fn(Progress) + Sync),
+        cancel: &AtomicBool,
+    ) -> Rendering {
+        match self.settings.sampler {
+            SamplerKind::Independent => self.render_with::<Independent>(tiles, report, cancel),
+            SamplerKind::Sobol => self.render_with::<Sobol>(tiles, report, cancel),
+        }
+    }
+
+    /// Every thread takes the next tile until none is left.
+    fn render_with<S: Sampler>(
+        &self,
+        tiles: &[Tile],
+        report: &(dyn Fn(Progress) + Sync),
+        cancel: &AtomicBool,
+    ) -> Rendering {
+        let crop = &self.scene.film.crop;
+        let tracer = self.tracer();
+        let next = AtomicUsize::new(0);
+        let rendering = Mutex::new(Rendering {
+            image: Image::black(crop.size),
+            statistics: Statistics::default(),
+            progress: Progress { finished: 0, total: tiles.len() },
+        });
+        self.pool.broadcast(|_| {
+            while !cancel.load(Ordering::Relaxed) {
+                let Some(&tile) = tiles.get(next.fetch_add(1, Ordering::Relaxed)) else { break };
+                let (pixels, statistics) = self.render_tile::<S>(&tracer, tile);
+                // Merging is the same in any order. A poisoned lock means that `report` panicked
+                // on another thread, whose tile is complete.
+                let mut shared = rendering.lock().unwrap_or_else(PoisonError::into_inner);
+                for (pixel, color) in tile.pixels().zip(pixels) {
+                    let [x, y] = [0, 1].map(|axis| pixel[axis] - crop.offset[axis]);
+                    shared.image.set([x, y], color);
+                }
+                shared.statistics.merge(&statistics);
+                shared.progress.finished += 1;
+                let progress = shared.progress;
+                drop(shared);
+                report(progress);
+            }
+        });
+        rendering.into_inner().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn tracer(&self) -> PathTracer<'_> {
+        let RenderSettings { path, strategy, .. } = self.settings;
+        PathTracer::new(self.scene, &self.lights, path, strategy)
+    }
+
+    fn render_tile<S: Sampler>(
+        &self,
+        tracer: &PathTracer<'_>,
+        tile: Tile,
+    ) -> (Vec<Color>, Statistics) {
+        let mut statistics = Statistics::default();
+        let pixels = tile
+            .pixels()
+            .map(|pixel| self.render_pixel::<S>(tracer, pixel, &mut statistics))
+            .collect();
+        (pixels, statistics)
+    }
+
+    fn render_pixel<S: Sampler>(
+        &self,
+        tracer: &PathTracer<'_>,
+        pixel: [u32; 2],
+        statistics: &mut Statistics,
+    ) -> Color {
+        let filter = self.filter.pixel(pixel);
+        let mut sum = PixelSum::default();
+        for sample in 0..self.settings.samples_per_pixel {
+            let points = S::at(self.settings.seed, pixel, u64::from(sample));
+            let radiance = self.path_sample(tracer, &filter, &points, &mut statistics.rays);
+            if !sum.add(radiance) {
+                let [column, row] = pixel;
+                statistics.non_finite.record(SampleAddress { row, column, sample });
+            }
+        }
+        statistics.samples += u64::from(self.settings.samples_per_pixel);
+        sum.mean()
+    }
+
+    fn path_sample<S: Sampler>(
+        &self,
+        tracer: &PathTracer<'_>,
+        filter: &PixelFilter<'_>,
+        points: &S,
+        rays: &mut RayCounts,
+    ) -> Color {
+        let film = filter.sample(points.sample_2d(Dimension::camera(Decision::Film)));
+        let lens = points.sample_2d(Dimension::camera(Decision::Lens));
+        let ray = self.scene.camera.ray(film.position, lens);
+        tracer.radiance(ray, points, rays).scale(film.weight)
+    }
+}

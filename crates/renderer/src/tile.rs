@@ -1,0 +1,91 @@
+//! The pieces that a picture is rendered in.
+
+use etendue_scene::film::Crop;
+
+/// Edge of a tile in pixels: small enough for an even load, large enough for coherent rays.
+const EDGE: u32 = 16;
+
+/// A rectangle of pixels on the full film.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Tile {
+    pub(crate) offset: [u32; 2],
+    pub(crate) size: [u32; 2],
+}
+
+impl Tile {
+    /// The tiles of a crop along a Hilbert curve, so that consecutive tiles look at the same part of
+    /// the scene.
+    pub(crate) fn cover(crop: &Crop) -> Vec<Self> {
+        let counts = crop.size.map(|pixels| pixels.div_ceil(EDGE));
+        let mut places: Vec<[u32; 2]> =
+            (0..counts[1]).flat_map(|y| (0..counts[0]).map(move |x| [x, y])).collect();
+        places.sort_by_cached_key(|&place| hilbert_index(place));
+        places
+            .into_iter()
+            .map(|place| {
+                let begin = place.map(|p| p * EDGE);
+                Self {
+                    offset: [0, 1].map(|axis| crop.offset[axis] + begin[axis]),
+                    size: [0, 1].map(|axis| EDGE.min(crop.size[axis] - begin[axis])),
+                }
+            })
+            .collect()
+    }
+
+    /// The pixels of the tile, row by row.
+    pub(crate) fn pixels(self) -> impl Iterator<Item = [u32; 2]> {
+        let Self { offset: [left, top], size: [width, height] } = self;
+        (top..top + height).flat_map(move |y| (left..left + width).map(move |x| [x, y]))
+    }
+}
+
+/// How far along the Hilbert curve through the square of 2³² × 2³² cells a cell lies.
+///
+/// # Source
+/// Warren, "Hacker's Delight", 2nd edition, section 16-3: quadrant by quadrant from the largest.
+fn hilbert_index([mut x, mut y]: [u32; 2]) -> u64 {
+    let mut index = 0_u64;
+    for bit in (0..u32::BITS).rev() {
+        let (right, upper) = (x >> bit & 1, y >> bit & 1);
+        index = index << 2 | u64::from((3 * right) ^ upper);
+        if upper == 0 {
+            // The two lower quadrants are traversed transposed, the right one mirrored as well.
+            if right == 1 {
+                (x, y) = (!x, !y);
+            }
+            (x, y) = (y, x);
+        }
+    }
+    index
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::HashSet;
+
+    #[test]
+    fn tiles_cover_every_pixel_of_the_crop_once() {
+        for size in [[1, 1], [16, 16], [17, 33], [100, 3]] {
+            let crop = Crop { offset: [5, 7], size };
+            let pixels: Vec<[u32; 2]> =
+                Tile::cover(&crop).into_iter().flat_map(Tile::pixels).collect();
+            let distinct: HashSet<[u32; 2]> = pixels.iter().copied().collect();
+            assert_eq!(pixels.len(), (size[0] * size[1]) as usize);
+            assert_eq!(distinct.len(), pixels.len());
+            assert!(pixels.iter().all(|p| (0..2).all(|axis| {
+                (crop.offset[axis]..crop.offset[axis] + size[axis]).contains(&p[axis])
+            })));
+        }
+    }
+
+    #[test]
+    fn consecutive_tiles_of_a_square_are_neighbours() {
+        let tiles = Tile::cover(&Crop { offset: [0, 0], size: [EDGE * 16; 2] });
+        for pair in tiles.windows(2) {
+            let distance: u32 =
+                (0..2).map(|axis| pair[0].offset[axis].abs_diff(pair[1].offset[axis])).sum();
+            assert_eq!(distance, EDGE);
+        }
+    }
+}
