@@ -55,12 +55,15 @@ pub fn conductor<T: Real>(cos_i: T, eta: T, k: T) -> T {
     }
     // The difference cancels only where a ≈ c; there d + b² is the small number itself.
     let difference = if b < T::HALF && sum > T::ZERO { (d + b2) / sum } else { a - c };
-    let rs = (difference * difference + b2) / (sum2 + b2);
     let bc2 = b2 * c * c;
     let (plus, minus) = (a * c + s2, a * c - s2);
     let denominator = plus * plus + bc2;
-    let ratio = if denominator > T::ZERO { (minus * minus + bc2) / denominator } else { T::ONE };
-    (T::HALF * rs * (T::ONE + ratio)).min(T::ONE)
+    if !(denominator > T::ZERO) {
+        return T::ONE; // as above
+    }
+    // Rs and Rp share a factor: F = ½ Rs (1 + Rp/Rs), over one denominator.
+    let numerator = (difference * difference + b2) * (denominator + (minus * minus + bc2));
+    (T::HALF * numerator / ((sum2 + b2) * denominator)).min(T::ONE)
 }
 
 #[cfg(test)]
