@@ -1,0 +1,98 @@
+//! Whether the parts of a scene fit together.
+
+use super::{SceneParts, SurfaceInfo};
+use crate::geometry::ShapeId;
+use crate::light::{Light, LightError, LightId};
+use crate::texture::{TextureId, Textures};
+
+/// Why parts do not make a scene.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum InvalidScene {
+    /// The list of surfaces is longer or shorter than that of shapes.
+    #[error("there are {surfaces} surfaces for {shapes} shapes")]
+    SurfaceCount {
+        /// Entries in the list of surfaces.
+        surfaces: usize,
+        /// Shapes of the geometry.
+        shapes: usize,
+    },
+    /// A surface names a material that does not exist.
+    #[error("shape {0} is made of a material that does not exist")]
+    Material(u32),
+    /// A shape and a light do not name each other.
+    #[error("shape {0} and its area light do not refer to each other")]
+    AreaLight(u32),
+    /// A light names a texture that does not exist.
+    #[error("light {0} refers to a texture that does not exist")]
+    Texture(u32),
+    /// A light is refused.
+    #[error("light {light}: {error}")]
+    Light {
+        /// Which.
+        light: u32,
+        /// Why.
+        error: LightError,
+    },
+    /// The crop is empty or reaches beyond the film.
+    #[error("the crop is empty or does not lie within the film")]
+    Crop,
+}
+
+/// Checks every reference between the parts, and the lights; directional lights get a direction of
+/// unit length.
+pub(super) fn check(parts: &mut SceneParts) -> Result<(), InvalidScene> {
+    let SceneParts { geometry, surfaces, materials, textures, lights, film, .. } = parts;
+    let shapes = geometry.shapes().len();
+    if surfaces.len() != shapes {
+        return Err(InvalidScene::SurfaceCount { surfaces: surfaces.len(), shapes });
+    }
+    if !film.contains_crop() {
+        return Err(InvalidScene::Crop);
+    }
+    for (index, surface) in surfaces.iter().enumerate() {
+        let shape = index as u32;
+        materials.get(surface.material).ok_or(InvalidScene::Material(shape))?;
+        if let Some(light) = surface.light {
+            match lights.get(light.0 as usize) {
+                Some(Light::Area(light)) if light.shape == ShapeId(shape) => {}
+                _ => return Err(InvalidScene::AreaLight(shape)),
+            }
+        }
+    }
+    for (index, light) in lights.iter_mut().enumerate() {
+        check_light(LightId(index as u32), light, surfaces, textures)?;
+    }
+    Ok(())
+}
+
+/// Checks a light, and gives the direction of a directional one unit length.
+fn check_light(
+    id: LightId,
+    light: &mut Light,
+    surfaces: &[SurfaceInfo],
+    textures: &Textures,
+) -> Result<(), InvalidScene> {
+    let refused = |error| InvalidScene::Light { light: id.0, error };
+    let known = |texture: TextureId| match textures.get(texture) {
+        Some(_) => Ok(()),
+        None => Err(InvalidScene::Texture(id.0)),
+    };
+    match light {
+        Light::Area(area) => {
+            let surface = surfaces.get(area.shape.0 as usize);
+            if surface.is_none_or(|surface| surface.light != Some(id)) {
+                return Err(InvalidScene::AreaLight(area.shape.0));
+            }
+            known(area.radiance)
+        }
+        Light::Point(light) => light.check().map_err(refused),
+        Light::Spot(light) => light.texture().map_or(Ok(()), known),
+        Light::Directional(light) => {
+            *light = light.normalized().map_err(refused)?;
+            Ok(())
+        }
+        Light::Constant(light) => light.check().map_err(refused),
+        // Checked where they are made.
+        Light::Environment(_) => Ok(()),
+    }
+}

@@ -1,0 +1,49 @@
+//! How a scene is to be rendered.
+
+/// Which source of random numbers.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum SamplerKind {
+    /// Independent numbers.
+    Independent,
+    /// Owen-scrambled Sobol' points.
+    #[default]
+    Sobol,
+}
+
+/// How often a pixel is sampled, and by what.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SamplingSettings {
+    /// Source of random numbers.
+    pub sampler: SamplerKind,
+    /// Samples per pixel.
+    pub samples_per_pixel: u32,
+    /// Another seed gives another picture of the same scene.
+    pub seed: u64,
+}
+
+impl Default for SamplingSettings {
+    fn default() -> Self {
+        Self { sampler: SamplerKind::default(), samples_per_pixel: 16, seed: 0 }
+    }
+}
+
+/// How far paths go.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PathSettings {
+    /// Largest number of edges: 1 shows emitters only, 2 adds direct light; `None` is unlimited.
+    pub max_depth: Option<u32>,
+    /// From which number of edges on paths are ended by chance.
+    pub roulette_depth: u32,
+    /// Whether emitters are invisible to the camera.
+    pub hide_emitters: bool,
+    /// Whether a direction must lie on the same side of the geometric normal as of the shading
+    /// normal.
+    pub strict_normals: bool,
+}
+
+impl Default for PathSettings {
+    /// Mitsuba's defaults.
+    fn default() -> Self {
+        Self { max_depth: None, roulette_depth: 5, hide_emitters: false, strict_normals: false }
+    }
+}
