@@ -137,7 +137,7 @@ struct Random(u64);
 impl Random {
     fn uniform(&mut self) -> f32 {
         self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-        (self.0 >> 40) as f32 * 2.0_f32.powi(-24)
+        (self.0 >> 40) as f32 / 16777216.0
     }
 
     fn direction(&mut self) -> Vec3 {

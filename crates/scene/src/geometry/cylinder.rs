@@ -22,6 +22,10 @@ pub struct Cylinder {
     side: f64,
 }
 
+/// How far a cross-section may be from round, relative: matrices in scene files have six or seven
+/// digits.
+const TOLERANCE: f64 = 1e-4;
+
 impl Cylinder {
     /// The cylinder about the segment from `p0` to `p1` in local space, placed by a transform.
     ///
@@ -48,8 +52,6 @@ impl Cylinder {
         ))?)?;
         let m = &to_world.affine().matrix3;
         let (x, y, z) = (m.x_axis, m.y_axis, m.z_axis);
-        // Matrices in scene files have six or seven digits.
-        const TOLERANCE: f64 = 1e-4;
         let (radius, length) = (Vector3::length(x), Vector3::length(z));
         let round = Real::abs(Vector3::length(y) - radius) <= TOLERANCE * radius
             && Real::abs(x.dot(y)) <= TOLERANCE * radius * radius;
@@ -101,7 +103,7 @@ impl Cylinder {
         let (x, y) = (o.x + middle * d.x, o.y + middle * d.y);
         let discriminant = self.radius * self.radius - (x * x + y * y);
         // A ray along the axis divides 0 by 0: NaN is a miss.
-        if !(discriminant >= 0.0) {
+        if discriminant < 0.0 || discriminant.is_nan() {
             return None;
         }
         let half = Real::sqrt(discriminant / dd);

@@ -194,7 +194,7 @@ impl Kernel for Closest<'_> {
         let Self { geometry, ray } = self;
         let mut found = Found::nothing_before(ray.t_max);
         let objects = World { geometry, ray };
-        geometry.top.bvh.closest(simd, &PreparedRay::new(ray), &objects, &mut found);
+        geometry.top.bvh.closest(simd, &PreparedRay::new(simd, ray), &objects, &mut found);
         found
     }
 }
@@ -212,7 +212,7 @@ impl Kernel for Occluded<'_> {
     fn run<S: Simd>(self, simd: S) -> bool {
         let Self { geometry, ray } = self;
         let objects = World { geometry, ray };
-        geometry.top.bvh.occluded(simd, &PreparedRay::new(ray), &objects, ray.t_max)
+        geometry.top.bvh.occluded(simd, &PreparedRay::new(simd, ray), &objects, ray.t_max)
     }
 }
 
@@ -256,7 +256,7 @@ impl Objects for World<'_> {
         }
         let objects = Group { shapes: &self.geometry.shapes, quadrics: &group.quadrics, ray: &ray };
         let before = found.t;
-        group.bvh.closest(simd, &PreparedRay::new(&ray), &objects, found);
+        group.bvh.closest(simd, &PreparedRay::new(simd, &ray), &objects, found);
         if found.t < before {
             found.instance = number;
         }
@@ -269,7 +269,7 @@ impl Objects for World<'_> {
         };
         let ray = transform.inverse_ray(self.ray);
         let objects = Group { shapes: &self.geometry.shapes, quadrics: &group.quadrics, ray: &ray };
-        ray.is_valid() && group.bvh.occluded(simd, &PreparedRay::new(&ray), &objects, t_max)
+        ray.is_valid() && group.bvh.occluded(simd, &PreparedRay::new(simd, &ray), &objects, t_max)
     }
 }
 

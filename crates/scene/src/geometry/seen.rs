@@ -42,8 +42,7 @@ impl Shape {
     /// `None` for a primitive that does not exist or has no area.
     fn seen(&self, primitive: u32, reference: Vec3) -> Option<Seen> {
         let area = self.primitive_area(primitive);
-        // Written so that NaN is refused.
-        if !(area > 0.0) {
+        if area == 0.0 {
             return None;
         }
         let by_angle = match self {
@@ -136,7 +135,7 @@ fn plane_coordinates(
     origin: Vec3,
     direction: Vec3,
 ) -> Option<[f32; 2]> {
-    let [e1, e2] = edges.map(|e| e.as_dvec3());
+    let [e1, e2] = edges.map(Vec3::as_dvec3);
     let (s, w): (DVec3, DVec3) = (origin.as_dvec3() - corner.as_dvec3(), direction.as_dvec3());
     let p = w.cross(e2);
     let determinant = e1.dot(p);

@@ -106,7 +106,7 @@ impl Shape {
     /// A point uniform over the area of a primitive, from two uniforms in `[0, 1)`; `None` for a
     /// primitive that does not exist or has no area.
     pub fn sample_area(&self, primitive: u32, u: [f32; 2]) -> Option<ShapeSample> {
-        if !(self.primitive_area(primitive) > 0.0) {
+        if self.primitive_area(primitive) == 0.0 {
             return None;
         }
         Some(match self {

@@ -102,8 +102,7 @@ impl Sphere {
         let middle = -l.dot(d) / dd;
         let perpendicular = l + d * middle;
         let discriminant = self.radius * self.radius - perpendicular.dot(perpendicular);
-        // Written so that NaN is a miss.
-        if !(discriminant >= 0.0) {
+        if discriminant < 0.0 || discriminant.is_nan() {
             return None;
         }
         let half = Real::sqrt(discriminant / dd);

@@ -320,7 +320,7 @@ fn unit(v: DVec3) -> Option<DVec3> {
 
 /// The unit vector along `v`; zero for the zero vector.
 pub(crate) fn unit_or_zero(v: Vec3) -> Vec3 {
-    unit(v.as_dvec3()).map_or(Vec3::ZERO, |v| v.as_vec3())
+    unit(v.as_dvec3()).map_or(Vec3::ZERO, DVec3::as_vec3)
 }
 
 #[cfg(test)]

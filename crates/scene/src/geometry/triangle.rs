@@ -25,7 +25,7 @@ pub(crate) type Corners = [Vec3; 3];
 /// origin, yet too little near it.
 pub(crate) fn point(corners: &Corners, b1: f32, b2: f32) -> (Vec3, Vec3) {
     const U: f64 = 0.5 * f32::EPSILON as f64;
-    let [v0, v1, v2] = corners.map(|v| v.as_dvec3());
+    let [v0, v1, v2] = corners.map(Vec3::as_dvec3);
     let p = v0 + (v1 - v0) * f64::from(b1) + (v2 - v0) * f64::from(b2);
     let largest = v0.abs().max(v1.abs()).max(v2.abs());
     let spread = (v0 - p).abs() + (v1 - p).abs() + (v2 - p).abs();
@@ -40,14 +40,14 @@ pub(crate) fn point(corners: &Corners, b1: f32, b2: f32) -> (Vec3, Vec3) {
 /// The unit normal of the side from which the corners run anticlockwise; `None` for a triangle
 /// without area.
 pub(crate) fn normal(corners: &Corners) -> Option<Vec3> {
-    let [v0, v1, v2] = corners.map(|v| v.as_dvec3());
+    let [v0, v1, v2] = corners.map(Vec3::as_dvec3);
     // In f64 the cross product of f32 edges neither cancels badly nor leaves the range.
     Vector3::try_normalize((v1 - v0).cross(v2 - v0)).map(|n: DVec3| n.as_vec3())
 }
 
 /// The area, `|(v₁ − v₀) × (v₂ − v₀)| / 2`.
 pub(crate) fn area(corners: &Corners) -> f32 {
-    let [v0, v1, v2] = corners.map(|v| v.as_dvec3());
+    let [v0, v1, v2] = corners.map(Vec3::as_dvec3);
     (0.5 * length((v1 - v0).cross(v2 - v0))) as f32
 }
 

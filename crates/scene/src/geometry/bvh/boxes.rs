@@ -5,11 +5,13 @@ use super::node::Node;
 use super::simd::Simd;
 use crate::geometry::Ray;
 
-/// A ray as the box test wants it.
+/// A ray as the box test wants it, in vectors.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::geometry) struct BoxRay {
-    origin: [f32; 3],
-    inverse: [f32; 3],
+pub(super) struct BoxRay<F> {
+    origin: [F; 3],
+    /// Reciprocals of the direction, shrunk for where boxes begin, stretched for where they end.
+    to_near: [F; 3],
+    to_far: [F; 3],
     /// For each axis, which of the six rows of [`Node::bounds`] the ray meets first.
     near: [usize; 3],
 }
@@ -25,21 +27,27 @@ pub(in crate::geometry) struct BoxRay {
 /// Ize, "Robust BVH Ray Traversal", JCGT 2(2), 2013, which counts the first three.
 const WIDEN: f32 = 18.0 * 0.5 * f32::EPSILON;
 
-impl BoxRay {
+impl<F: Copy> BoxRay<F> {
     #[inline(always)]
-    pub(super) fn new(ray: &Ray) -> Self {
-        let inverse = ray.direction.to_array().map(|d| 1.0 / d);
+    pub(super) fn new<S: Simd<F = F>>(simd: S, ray: &Ray) -> Self {
+        let [x, y, z] = ray.direction.to_array();
+        let (x, y, z) = (1.0 / x, 1.0 / y, 1.0 / z);
         // The sign of the reciprocal, so that −0 selects the rows that fit its −∞.
-        let near =
-            core::array::from_fn(|axis| 2 * axis + usize::from(inverse[axis].is_sign_negative()));
-        Self { origin: ray.origin.to_array(), inverse, near }
+        let row = |axis: usize, inverse: f32| 2 * axis + usize::from(inverse.is_sign_negative());
+        let (shrink, stretch) = (1.0 - WIDEN, 1.0 + WIDEN);
+        Self {
+            origin: [simd.splat(ray.origin.x), simd.splat(ray.origin.y), simd.splat(ray.origin.z)],
+            to_near: [simd.splat(x * shrink), simd.splat(y * shrink), simd.splat(z * shrink)],
+            to_far: [simd.splat(x * stretch), simd.splat(y * stretch), simd.splat(z * stretch)],
+            near: [row(0, x), row(1, y), row(2, z)],
+        }
     }
 }
 
 /// Which boxes the ray meets before `t_max`, as a mask, and a lower bound on where it enters them.
 ///
 /// ```text
-/// t₀ = max(0, max over axes of (near − o)/d · (1 − w)),  t₁ = min(t_max, min of (far − o)/d · (1 + w))
+/// t₀ = max(0, max over axes of (near − o) · (1 − w)/d),  t₁ = min(t_max, min of (far − o) · (1 + w)/d)
 /// met where t₀ ≤ t₁
 /// ```
 ///
@@ -49,22 +57,17 @@ impl BoxRay {
 pub(super) fn entered<S: Simd>(
     simd: S,
     node: &Node,
-    ray: &BoxRay,
+    ray: &BoxRay<S::F>,
     t_max: f32,
 ) -> (u32, [f32; LANES]) {
-    let (shrink, stretch) = (simd.splat(1.0 - WIDEN), simd.splat(1.0 + WIDEN));
     let mut enter = simd.splat(0.0);
-    let mut leave = simd.splat(f32::INFINITY);
+    let mut leave = simd.splat(t_max);
     for axis in 0..3 {
-        let origin = simd.splat(ray.origin[axis]);
-        let inverse = simd.splat(ray.inverse[axis]);
         let row = ray.near[axis];
-        let near = simd.mul(simd.sub(simd.load(&node.bounds[row]), origin), inverse);
-        let far = simd.mul(simd.sub(simd.load(&node.bounds[row ^ 1]), origin), inverse);
-        enter = simd.max(near, enter);
-        leave = simd.min(far, leave);
+        let near = simd.sub(simd.load(&node.bounds[row]), ray.origin[axis]);
+        let far = simd.sub(simd.load(&node.bounds[row ^ 1]), ray.origin[axis]);
+        enter = simd.max(simd.mul(near, ray.to_near[axis]), enter);
+        leave = simd.min(simd.mul(far, ray.to_far[axis]), leave);
     }
-    let enter = simd.mul(enter, shrink);
-    let leave = simd.min(simd.mul(leave, stretch), simd.splat(t_max));
     (simd.le(enter, leave), simd.store(enter))
 }

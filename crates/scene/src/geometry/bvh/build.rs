@@ -10,11 +10,12 @@ use super::{Bvh, LANES};
 use crate::geometry::Aabb;
 use crate::geometry::triangle::Corners;
 
-/// Levels of nodes. 8¹³ items fit into the levels below the root by halving alone, so that the
+/// Levels of nodes. 8¹¹ items fit into the levels below the root by halving alone, so that the
 /// limit leaves the heuristic free nearly everywhere; the traversal's stack follows from it.
-pub(super) const MAX_DEPTH: usize = 14;
+pub(super) const MAX_DEPTH: usize = 12;
 
 /// Ranges with fewer items are built on the thread that finds them.
+#[cfg(feature = "std")]
 const PARALLEL_FROM: usize = 2048;
 
 /// A triangle to be held by a hierarchy.
@@ -157,9 +158,9 @@ impl Builder<'_> {
         Some((Child::new(content), Subtree { nodes: Vec::new(), blocks }))
     }
 
-    fn child(&self, part: Part<'_>, depth: usize) -> (Child, Subtree) {
-        self.leaf(part.items).unwrap_or_else(|| {
-            let subtree = self.node(part.items, part.bounds, depth);
+    fn child(&self, Part { items, bounds }: Part<'_>, depth: usize) -> (Child, Subtree) {
+        self.leaf(items).unwrap_or_else(|| {
+            let subtree = self.node(items, bounds, depth);
             (Child::new(Content::Node(0)), subtree)
         })
     }

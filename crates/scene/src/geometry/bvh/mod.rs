@@ -22,14 +22,15 @@ mod triangles;
 
 use alloc::vec::Vec;
 
-use super::Aabb;
+use super::{Aabb, Ray};
 use block::TriangleBlock;
+use boxes::BoxRay;
 use node::Node;
+use simd::Simd;
+use triangles::TriangleRay;
 
-pub(super) use boxes::BoxRay;
 pub(super) use build::TriangleRef;
 pub(super) use traverse::{Found, Objects};
-pub(super) use triangles::TriangleRay;
 
 /// Floats in a vector, children of a node, triangles of a block.
 const LANES: usize = 8;
@@ -61,15 +62,15 @@ impl Bvh {
 
 /// A ray with what the tests of boxes and triangles want to know of it.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct PreparedRay {
-    boxes: BoxRay,
-    triangles: TriangleRay,
+pub(super) struct PreparedRay<F> {
+    boxes: BoxRay<F>,
+    triangles: TriangleRay<F>,
 }
 
-impl PreparedRay {
-    /// For a ray that [is valid](super::Ray::is_valid).
+impl<F: Copy> PreparedRay<F> {
+    /// For a ray that [is valid](Ray::is_valid).
     #[inline(always)]
-    pub(super) fn new(ray: &super::Ray) -> Self {
-        Self { boxes: BoxRay::new(ray), triangles: TriangleRay::new(ray) }
+    pub(super) fn new<S: Simd<F = F>>(simd: S, ray: &Ray) -> Self {
+        Self { boxes: BoxRay::new(simd, ray), triangles: TriangleRay::new(simd, ray) }
     }
 }

@@ -61,11 +61,10 @@ fn bin_of(item: &Item, centers: &Aabb, axis: usize) -> usize {
     ((place * BINS as f32) as usize).min(BINS - 1)
 }
 
-/// The plane with the least `area × blocks` on both sides; `None` if all centres coincide.
+/// The plane with the least `area × items` on both sides; `None` if all centres coincide.
 ///
 /// # Source
-/// Wald, "On fast Construction of SAH-based Bounding Volume Hierarchies", 2007; triangles counted
-/// in blocks because a block costs the same however full it is.
+/// Wald, "On fast Construction of SAH-based Bounding Volume Hierarchies", 2007.
 fn best_plane(items: &[Item], centers: &Aabb) -> Option<Plane> {
     let extent = centers.extent();
     let mut best: Option<Plane> = None;
@@ -103,8 +102,10 @@ impl Bin {
         Self { bounds: self.bounds.union(other.bounds), count: self.count + other.count }
     }
 
+    /// In units of one item in a box of half area 1. Counting blocks instead would be true to the
+    /// traversal, yet makes trees with fuller blocks and larger boxes that are a fifth slower.
     fn cost(&self) -> f32 {
-        self.bounds.half_area() * self.count.div_ceil(LANES) as f32
+        self.bounds.half_area() * self.count as f32
     }
 }
 

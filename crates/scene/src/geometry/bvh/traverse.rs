@@ -2,7 +2,7 @@
 
 use super::block::TriangleBlock;
 use super::build::MAX_DEPTH;
-use super::node::{Child, Content};
+use super::node::{Child, Content, Node};
 use super::simd::Simd;
 use super::{Bvh, LANES, PreparedRay, boxes, triangles};
 
@@ -66,18 +66,42 @@ impl Stack {
         None
     }
 
-    /// Brings the entries above `bottom` into descending order, the nearest on top.
+    /// Pushes the children in a mask so that nearer ones come out first, and returns the nearest.
     #[inline(always)]
-    fn sort_above(&mut self, bottom: usize) {
-        for i in bottom + 1..self.length {
-            let entry = self.entries[i];
-            let mut j = i;
-            while j > bottom && self.entries[j - 1] < entry {
-                self.entries[j] = self.entries[j - 1];
-                j -= 1;
-            }
-            self.entries[j] = entry;
+    fn push_all_but_nearest(
+        &mut self,
+        node: &Node,
+        mask: u32,
+        distances: &[f32; LANES],
+    ) -> Option<Child> {
+        let mut entered = lanes(mask);
+        let first = entered.next()?;
+        // Most nodes have one or two such children: no sorting.
+        let Some(second) = entered.next() else { return Some(node.children[first]) };
+        let (near, far) =
+            if distances[second] < distances[first] { (second, first) } else { (first, second) };
+        let bottom = self.length;
+        self.push(distances[far], node.children[far]);
+        let Some(third) = entered.next() else { return Some(node.children[near]) };
+        self.push(distances[near], node.children[near]);
+        self.push_sorted(bottom, distances[third], node.children[third]);
+        for lane in entered {
+            self.push_sorted(bottom, distances[lane], node.children[lane]);
         }
+        self.pop(f32::INFINITY)
+    }
+
+    /// Pushes into the descending entries above `bottom`, the nearest on top.
+    #[inline(always)]
+    fn push_sorted(&mut self, bottom: usize, distance: f32, child: Child) {
+        self.push(distance, child);
+        let mut i = self.length - 1;
+        let entry = self.entries[i];
+        while i > bottom && self.entries[i - 1] < entry {
+            self.entries[i] = self.entries[i - 1];
+            i -= 1;
+        }
+        self.entries[i] = entry;
     }
 }
 
@@ -99,7 +123,7 @@ impl Bvh {
     pub(in crate::geometry) fn closest<S: Simd, O: Objects>(
         &self,
         simd: S,
-        ray: &PreparedRay,
+        ray: &PreparedRay<S::F>,
         objects: &O,
         found: &mut Found,
     ) {
@@ -110,11 +134,10 @@ impl Bvh {
                 Content::Node(index) => {
                     let node = &self.nodes[index as usize];
                     let (mask, distances) = boxes::entered(simd, node, &ray.boxes, found.t);
-                    let bottom = stack.length;
-                    for lane in lanes(mask) {
-                        stack.push(distances[lane], node.children[lane]);
+                    next = stack.push_all_but_nearest(node, mask, &distances);
+                    if next.is_some() {
+                        continue;
                     }
-                    stack.sort_above(bottom);
                 }
                 Content::Block(index) => {
                     let block = &self.blocks[index as usize];
@@ -137,7 +160,7 @@ impl Bvh {
     pub(in crate::geometry) fn occluded<S: Simd, O: Objects>(
         &self,
         simd: S,
-        ray: &PreparedRay,
+        ray: &PreparedRay<S::F>,
         objects: &O,
         t_max: f32,
     ) -> bool {
@@ -148,6 +171,7 @@ impl Bvh {
                 Content::Node(index) => {
                     let node = &self.nodes[index as usize];
                     let (mask, _) = boxes::entered(simd, node, &ray.boxes, t_max);
+                    // In any order: sorting costs more than it finds sooner.
                     for lane in lanes(mask) {
                         stack.push(0.0, node.children[lane]);
                     }

@@ -5,21 +5,26 @@ use super::block::TriangleBlock;
 use super::simd::Simd;
 use crate::geometry::Ray;
 
-/// A ray as the triangle test wants it: the axis along which it is longest and the shear that
-/// turns it into that axis.
+/// A ray as the triangle test wants it, in vectors: the axis along which it is longest and the shear
+/// that turns it into that axis.
+///
+/// No closures over vectors here: they would be compiled apart, without the kernel's instructions.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::geometry) struct TriangleRay {
-    origin: [f32; 3],
+pub(super) struct TriangleRay<F> {
     /// The two other axes and the longest one.
     axes: [usize; 3],
-    /// Direction along the other axes over that along the longest, and the reciprocal of the latter.
-    shear: [f32; 3],
+    /// Origin along these axes.
+    origin: [F; 3],
+    /// Direction along the other axes over that along the longest.
+    shear: [F; 2],
+    /// Reciprocal of the direction along the longest.
+    inverse: f32,
 }
 
-impl TriangleRay {
+impl<F: Copy> TriangleRay<F> {
     #[inline(always)]
-    pub(super) fn new(ray: &Ray) -> Self {
-        let d = ray.direction.to_array();
+    pub(super) fn new<S: Simd<F = F>>(simd: S, ray: &Ray) -> Self {
+        let (o, d) = (ray.origin.to_array(), ray.direction.to_array());
         let size = ray.direction.abs();
         let z = if size.x >= size.y && size.x >= size.z {
             0
@@ -30,9 +35,22 @@ impl TriangleRay {
         };
         let (x, y) = ((z + 1) % 3, (z + 2) % 3);
         Self {
-            origin: ray.origin.to_array(),
             axes: [x, y, z],
-            shear: [d[x] / d[z], d[y] / d[z], 1.0 / d[z]],
+            origin: [simd.splat(o[x]), simd.splat(o[y]), simd.splat(o[z])],
+            shear: [simd.splat(d[x] / d[z]), simd.splat(d[y] / d[z])],
+            inverse: 1.0 / d[z],
+        }
+    }
+
+    #[inline(always)]
+    fn shear<S: Simd<F = F>>(&self, simd: S, corner: &[[f32; LANES]; 3]) -> Sheared<F> {
+        let x = simd.sub(simd.load(&corner[self.axes[0]]), self.origin[0]);
+        let y = simd.sub(simd.load(&corner[self.axes[1]]), self.origin[1]);
+        let z = simd.sub(simd.load(&corner[self.axes[2]]), self.origin[2]);
+        Sheared {
+            x: simd.sub(x, simd.mul(self.shear[0], z)),
+            y: simd.sub(y, simd.mul(self.shear[1], z)),
+            z,
         }
     }
 }
@@ -61,41 +79,6 @@ impl<F: Copy> Sheared<F> {
     }
 }
 
-/// A [`TriangleRay`] in vectors.
-///
-/// No closures here: they would be compiled apart, without the instructions of the kernel.
-struct ShearFrame<F> {
-    origin: [F; 3],
-    axes: [usize; 3],
-    x: F,
-    y: F,
-}
-
-impl<F: Copy> ShearFrame<F> {
-    #[inline(always)]
-    fn new<S: Simd<F = F>>(simd: S, ray: &TriangleRay) -> Self {
-        let [x, y, z] = ray.axes;
-        Self {
-            origin: [
-                simd.splat(ray.origin[x]),
-                simd.splat(ray.origin[y]),
-                simd.splat(ray.origin[z]),
-            ],
-            axes: ray.axes,
-            x: simd.splat(ray.shear[0]),
-            y: simd.splat(ray.shear[1]),
-        }
-    }
-
-    #[inline(always)]
-    fn shear<S: Simd<F = F>>(&self, simd: S, corner: &[[f32; LANES]; 3]) -> Sheared<F> {
-        let x = simd.sub(simd.load(&corner[self.axes[0]]), self.origin[0]);
-        let y = simd.sub(simd.load(&corner[self.axes[1]]), self.origin[1]);
-        let z = simd.sub(simd.load(&corner[self.axes[2]]), self.origin[2]);
-        Sheared { x: simd.sub(x, simd.mul(self.x, z)), y: simd.sub(y, simd.mul(self.y, z)), z }
-    }
-}
-
 /// The triangles that the ray hits at `0 < t < t_max`.
 ///
 /// Corners are moved to the ray's origin and sheared so that the ray is the z axis; then
@@ -118,13 +101,12 @@ impl<F: Copy> ShearFrame<F> {
 pub(super) fn hits<S: Simd>(
     simd: S,
     block: &TriangleBlock,
-    ray: &TriangleRay,
+    ray: &TriangleRay<S::F>,
     t_max: f32,
 ) -> Option<BlockHits> {
-    let frame = ShearFrame::new(simd, ray);
-    let a = frame.shear(simd, &block.corners[0]);
-    let b = frame.shear(simd, &block.corners[1]);
-    let c = frame.shear(simd, &block.corners[2]);
+    let a = ray.shear(simd, &block.corners[0]);
+    let b = ray.shear(simd, &block.corners[1]);
+    let c = ray.shear(simd, &block.corners[2]);
     let u = simd.sub(simd.mul(c.x, b.y), simd.mul(c.y, b.x));
     let v = simd.sub(simd.mul(a.x, c.y), simd.mul(a.y, c.x));
     let w = simd.sub(simd.mul(b.x, a.y), simd.mul(b.y, a.x));
@@ -140,7 +122,7 @@ pub(super) fn hits<S: Simd>(
     let on_edge = inside & (simd.eq(u, zero) | simd.eq(v, zero) | simd.eq(w, zero));
     let determinant = simd.add(u, simd.add(v, w));
     let depth = simd.add(simd.mul(u, a.z), simd.add(simd.mul(v, b.z), simd.mul(w, c.z)));
-    let t = simd.mul(simd.div(depth, determinant), simd.splat(ray.shear[2]));
+    let t = simd.mul(simd.div(depth, determinant), simd.splat(ray.inverse));
     let in_range = simd.lt(zero, t) & simd.lt(t, simd.splat(t_max));
     let mut found = BlockHits {
         mask: inside & in_range & !on_edge,
@@ -152,8 +134,8 @@ pub(super) fn hits<S: Simd>(
         redo_on_edges(
             &mut found,
             on_edge,
-            [a.store(simd), b.store(simd), c.store(simd)],
-            ray.shear[2],
+            &[a.store(simd), b.store(simd), c.store(simd)],
+            ray.inverse,
             t_max,
         );
     }
@@ -165,7 +147,7 @@ pub(super) fn hits<S: Simd>(
 fn redo_on_edges(
     found: &mut BlockHits,
     lanes: u32,
-    sheared: [[[f32; LANES]; 3]; 3],
+    sheared: &[[[f32; LANES]; 3]; 3],
     inverse_depth: f32,
     t_max: f32,
 ) {

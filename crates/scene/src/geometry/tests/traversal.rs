@@ -3,6 +3,7 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
+use etendue_math::Real;
 use etendue_math::glam::{DVec3, Vec3};
 
 use super::{Random, one_of_each, soup, sphere_mesh};
@@ -34,8 +35,7 @@ fn random_ray(random: &mut Random) -> Ray {
 
 /// One geometry per triangle with area: boxes of single triangles, no order to get wrong.
 fn brute_force(mesh: &TriangleMesh, ray: &Ray) -> Option<Hit> {
-    use std::thread_local;
-    thread_local! {
+    std::thread_local! {
         static SINGLE: core::cell::RefCell<Vec<(u32, Geometry)>> = const { core::cell::RefCell::new(Vec::new()) };
     }
     SINGLE.with_borrow_mut(|single| {
@@ -155,17 +155,17 @@ fn the_tree_is_the_same_for_one_and_four_threads() {
 
 #[test]
 fn items_at_one_place_and_depths_beyond_the_heuristic_are_built() {
-    // Nested triangles in geometric progression: the heuristic would peel them off one by one.
+    // Nested spheres in geometric progression: the heuristic would peel them off one by one.
     let mut shapes = Vec::new();
     for i in 0..3000 {
-        let size = 0.97_f64.powi(i % 1500);
+        let size = Real::powi(0.97_f64, i % 1500);
         let place = Transform::scale(DVec3::splat(size)).expect("a scale");
         shapes.push(Shape::Sphere(Sphere::new(DVec3::ZERO, 1.0, &place).expect("a sphere")));
     }
     let g = geometry(shapes);
     let hit = g.intersect(&Ray::new(Vec3::ZERO, Vec3::X)).expect("inside all spheres");
     // 0.97¹⁴⁹⁹ as a radius.
-    assert!((f64::from(hit.t) / 0.97_f64.powi(1499) - 1.0).abs() < 1e-6);
+    assert!((f64::from(hit.t) / Real::powi(0.97_f64, 1499) - 1.0).abs() < 1e-6);
 }
 
 #[test]
