@@ -15,6 +15,8 @@ pub mod light;
 #[cfg(feature = "std")]
 pub mod load;
 pub mod material;
+#[cfg(feature = "std")]
+pub mod mitsuba;
 pub mod scene;
 pub mod texture;
 #[cfg(feature = "std")]
@@ -25,6 +27,8 @@ mod diagnosis;
 mod error;
 
 pub use diagnosis::Diagnosis;
+#[cfg(feature = "std")]
+pub use mitsuba::{LoadOptions, LoadedScene, load_scene};
 #[cfg(feature = "std")]
 pub use error::{ErrorKind, Location, SceneError, Warning};
 pub use light::{EmissionSides, Light, LightBounds, LightId, LightSample};

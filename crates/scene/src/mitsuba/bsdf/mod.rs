@@ -1,0 +1,40 @@
+//! Surface scattering models.
+
+mod adapter;
+mod conductor;
+mod dielectric;
+mod diffuse;
+mod plastic;
+mod roughness;
+
+use super::{Context, Family};
+use crate::SceneError;
+use crate::material::MaterialId;
+use crate::xml::NodeId;
+
+/// The models there are.
+const BSDFS: &Family<MaterialId> = &[
+    ("conductor", conductor::smooth),
+    ("dielectric", dielectric::smooth),
+    ("diffuse", diffuse::diffuse),
+    ("mask", adapter::mask),
+    ("null", adapter::null),
+    ("plastic", plastic::smooth),
+    ("roughconductor", conductor::rough),
+    ("roughdielectric", dielectric::rough),
+    ("roughdiffuse", diffuse::rough),
+    ("roughplastic", plastic::rough),
+    ("thindielectric", dielectric::thin),
+    ("twosided", adapter::two_sided),
+];
+
+/// The material a node describes, translated once however often it is referred to.
+pub(super) fn translate(context: &mut Context<'_>, id: NodeId) -> Result<MaterialId, SceneError> {
+    if let Some(&material) = context.material_ids.get(&id) {
+        return Ok(material);
+    }
+    let node = context.description.node(id);
+    let material = context.translate(BSDFS, node)?;
+    context.material_ids.insert(id, material);
+    Ok(material)
+}

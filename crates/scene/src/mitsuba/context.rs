@@ -1,0 +1,112 @@
+//! What is gathered while a description is translated.
+
+use std::collections::BTreeMap;
+use std::format;
+use std::path::PathBuf;
+use std::vec::Vec;
+
+use super::LoadOptions;
+use super::reader::PluginReader;
+use crate::geometry::{GeometryBuilder, GroupId};
+use crate::light::Light;
+use crate::material::{Material, MaterialId, Materials};
+use crate::scene::SurfaceInfo;
+use crate::texture::{TextureId, Textures};
+use crate::xml::{Description, Node, NodeId, nearest};
+use crate::{Location, SceneError, Warning};
+
+/// Translates one plugin.
+pub(super) type Translate<T> =
+    for<'a> fn(&mut PluginReader<'a>, &mut Context<'a>) -> Result<T, SceneError>;
+
+/// The plugins of one family: their names and what they mean.
+pub(super) type Family<T> = [(&'static str, Translate<T>)];
+
+/// The parts of a scene, as far as they are translated.
+pub(super) struct Context<'a> {
+    pub(super) description: &'a Description,
+    pub(super) options: &'a LoadOptions,
+    pub(super) warnings: Vec<Warning>,
+    /// Files read beside the scene files themselves.
+    pub(super) files: Vec<PathBuf>,
+    pub(super) textures: Textures,
+    pub(super) materials: Materials,
+    pub(super) geometry: GeometryBuilder,
+    /// By shape.
+    pub(super) surfaces: Vec<SurfaceInfo>,
+    pub(super) lights: Vec<Light>,
+    /// What was translated already, since many may refer to it.
+    pub(super) texture_ids: BTreeMap<NodeId, TextureId>,
+    pub(super) material_ids: BTreeMap<NodeId, MaterialId>,
+    pub(super) groups: BTreeMap<NodeId, GroupId>,
+}
+
+impl<'a> Context<'a> {
+    pub(super) fn new(description: &'a Description, options: &'a LoadOptions) -> Self {
+        Self {
+            description,
+            options,
+            warnings: Vec::new(),
+            files: Vec::new(),
+            textures: Textures::default(),
+            materials: Materials::default(),
+            geometry: GeometryBuilder::new(),
+            surfaces: Vec::new(),
+            lights: Vec::new(),
+            texture_ids: BTreeMap::new(),
+            material_ids: BTreeMap::new(),
+            groups: BTreeMap::new(),
+        }
+    }
+
+    /// The file that is loaded.
+    pub(super) fn file(&self) -> PathBuf {
+        self.description.files.first().cloned().unwrap_or_default()
+    }
+
+    /// Notes something suspicious.
+    pub(super) fn warn(&mut self, location: Location, message: impl Into<std::string::String>) {
+        self.warnings.push(Warning::new(location, message));
+    }
+
+    /// Adds a material that is described at `location`.
+    pub(super) fn add_material(
+        &mut self,
+        material: Material,
+        location: &Location,
+    ) -> Result<MaterialId, SceneError> {
+        self.materials
+            .add(material)
+            .map_err(|e| SceneError::scene(location.clone(), format!("{e}")))
+    }
+
+    /// Translates a plugin of a family and checks that every parameter was understood.
+    ///
+    /// # Errors
+    /// A plugin that the family does not have, and what its translation refuses.
+    pub(super) fn translate<T>(
+        &mut self,
+        family: &Family<T>,
+        node: &'a Node,
+    ) -> Result<T, SceneError> {
+        let Some((_, plugin)) = family.iter().find(|(name, _)| *name == node.plugin) else {
+            return Err(unsupported(node, family.iter().map(|(name, _)| *name).collect()));
+        };
+        let mut reader = PluginReader::new(node);
+        let result = plugin(&mut reader, self)?;
+        reader.finish(self)?;
+        Ok(result)
+    }
+}
+
+/// The error for a plugin that is not in the list of those supported.
+fn unsupported(node: &Node, mut names: Vec<&'static str>) -> SceneError {
+    names.sort_unstable();
+    let list = names.join(", ");
+    let message = format!("the {} “{}” is not supported", node.kind.tag(), node.plugin);
+    let error = SceneError::scene(node.location.clone(), message);
+    match nearest(&node.plugin, names) {
+        Some(name) => error.help(format!("did you mean “{name}”? Supported are {list}")),
+        None => error.help(format!("supported are {list}")),
+    }
+}

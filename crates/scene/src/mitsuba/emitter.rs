@@ -1,0 +1,145 @@
+//! Light sources.
+
+use std::format;
+
+use etendue_math::glam::{DVec3, Vec3};
+
+use super::image::image;
+use super::reader::PluginReader;
+use super::value::{Role, color_or, texture_if_given, texture_or};
+use super::{Context, Family};
+use crate::SceneError;
+use crate::light::{
+    ConstantLight, DirectionalLight, EnvironmentLight, Light, LightError, PointLight, SpotLight,
+};
+use crate::load::Encoding;
+use crate::texture::TextureId;
+use crate::xml::NodeId;
+
+/// The emitters that are no shape.
+const EMITTERS: &Family<Light> = &[
+    ("area", misplaced),
+    ("constant", constant),
+    ("directional", directional),
+    ("envmap", envmap),
+    ("point", point),
+    ("spot", spot),
+];
+
+/// The emitters that make a shape shine.
+const SHAPE_EMITTERS: &Family<TextureId> = &[("area", area)];
+
+/// Adds the light a node describes.
+pub(super) fn add(context: &mut Context<'_>, id: NodeId) -> Result<(), SceneError> {
+    let light = context.translate(EMITTERS, context.description.node(id))?;
+    context.lights.push(light);
+    Ok(())
+}
+
+/// The radiance of an emitter inside a shape.
+pub(super) fn radiance(context: &mut Context<'_>, id: NodeId) -> Result<TextureId, SceneError> {
+    context.translate(SHAPE_EMITTERS, context.description.node(id))
+}
+
+/// `radiance` (1).
+fn area<'a>(
+    reader: &mut PluginReader<'a>,
+    context: &mut Context<'a>,
+) -> Result<TextureId, SceneError> {
+    ignore_weights(reader);
+    texture_or(reader, context, "radiance", Role::Emission, 1.0)
+}
+
+fn misplaced<'a>(reader: &mut PluginReader<'a>, _: &mut Context<'a>) -> Result<Light, SceneError> {
+    Err(reader.error("radiance", "an area emitter must stand inside a shape"))
+}
+
+/// `radiance` (1).
+fn constant<'a>(
+    reader: &mut PluginReader<'a>,
+    context: &mut Context<'a>,
+) -> Result<Light, SceneError> {
+    ignore_weights(reader);
+    let radiance = color_or(reader, context, "radiance", Role::Emission, 1.0)?;
+    Ok(Light::Constant(ConstantLight { radiance }))
+}
+
+/// `irradiance` (1), and `direction` or `to_world`, whose z axis is the direction of travel.
+fn directional<'a>(
+    reader: &mut PluginReader<'a>,
+    context: &mut Context<'a>,
+) -> Result<Light, SceneError> {
+    ignore_weights(reader);
+    let irradiance = color_or(reader, context, "irradiance", Role::Emission, 1.0)?;
+    let to_world = reader.transform("to_world")?;
+    let direction = match reader.vector("direction")? {
+        Some(_) if reader.has("to_world") => return Err(either(reader, "direction")),
+        Some(direction) => direction,
+        None => to_world.affine().transform_vector3(DVec3::Z),
+    };
+    let Some(direction) = direction.try_normalize() else {
+        return Err(reader.error("direction", "the direction has no length"));
+    };
+    Ok(Light::Directional(DirectionalLight { direction: direction.as_vec3(), irradiance }))
+}
+
+/// `intensity` (1), and `position` or `to_world`.
+fn point<'a>(
+    reader: &mut PluginReader<'a>,
+    context: &mut Context<'a>,
+) -> Result<Light, SceneError> {
+    ignore_weights(reader);
+    let intensity = color_or(reader, context, "intensity", Role::Emission, 1.0)?;
+    let to_world = reader.transform("to_world")?;
+    let position = match reader.vector("position")? {
+        Some(_) if reader.has("to_world") => return Err(either(reader, "position")),
+        Some(position) => position.as_vec3(),
+        None => to_world.point(Vec3::ZERO),
+    };
+    if !position.is_finite() {
+        return Err(reader.error("position", "the position is out of range"));
+    }
+    Ok(Light::Point(PointLight { position, intensity }))
+}
+
+/// `intensity` (1), `texture`, `cutoff_angle` (20), `beam_width` (¾ of it), `to_world`.
+fn spot<'a>(reader: &mut PluginReader<'a>, context: &mut Context<'a>) -> Result<Light, SceneError> {
+    ignore_weights(reader);
+    let intensity = color_or(reader, context, "intensity", Role::Emission, 1.0)?;
+    let texture = texture_if_given(reader, context, "texture", Role::Emission)?;
+    let cutoff = reader.float("cutoff_angle")?.unwrap_or(20.0);
+    let beam_width = reader.float("beam_width")?.unwrap_or(0.75 * cutoff);
+    let to_world = reader.transform("to_world")?;
+    SpotLight::new(to_world, intensity, texture, cutoff, beam_width)
+        .map(Light::Spot)
+        .map_err(|e| refused(reader, "cutoff_angle", e))
+}
+
+/// `filename`, `scale` (1), `to_world`.
+fn envmap<'a>(
+    reader: &mut PluginReader<'a>,
+    context: &mut Context<'a>,
+) -> Result<Light, SceneError> {
+    ignore_weights(reader);
+    // Bookkeeping of older versions and of gradient estimators.
+    reader.ignore(&["cache", "mis_compensation"]);
+    let scale = reader.float_in("scale", 1.0, "not negative", |scale| scale >= 0.0)?;
+    let to_world = reader.transform("to_world")?;
+    let image = image(reader, context, Encoding::Srgb)?;
+    EnvironmentLight::new(image, to_world, scale as f32)
+        .map(Light::Environment)
+        .map_err(|e| refused(reader, "to_world", e))
+}
+
+/// Lights are chosen by their power and place; the weights of Mitsuba's choice do not apply.
+fn ignore_weights(reader: &mut PluginReader<'_>) {
+    reader.ignore(&["sampling_weight"]);
+}
+
+fn either(reader: &PluginReader<'_>, name: &str) -> SceneError {
+    reader.error(name, format!("give either “{name}” or “to_world”"))
+}
+
+fn refused(reader: &PluginReader<'_>, name: &str, error: LightError) -> SceneError {
+    reader.error(name, format!("{}: {error}", reader.title()))
+}

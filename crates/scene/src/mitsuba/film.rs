@@ -1,0 +1,186 @@
+//! Films and reconstruction filters.
+
+use std::format;
+
+use super::reader::PluginReader;
+use super::{Context, Family};
+use crate::SceneError;
+use crate::film::{Crop, Film, ReconstructionFilter};
+use crate::xml::Kind;
+
+/// The films there are. How the picture is stored is chosen by whoever writes it.
+const FILMS: &Family<Film> = &[("hdrfilm", film), ("ldrfilm", film)];
+
+const FILTERS: &Family<ReconstructionFilter> = &[
+    ("box", box_filter),
+    ("catmullrom", catmull_rom),
+    ("gaussian", gaussian),
+    ("lanczos", lanczos),
+    ("mitchell", mitchell),
+    ("tent", tent),
+];
+
+/// Pixels beyond which a film is refused: 3 GiB of sums.
+const MOST_PIXELS: u64 = 1 << 28;
+
+/// Mitsuba's size of a picture.
+pub(super) const DEFAULT_SIZE: [u32; 2] = [768, 576];
+
+/// The film of a sensor: the one inside its plugin, or the default.
+pub(super) fn of<'a>(
+    reader: &mut PluginReader<'a>,
+    context: &mut Context<'a>,
+) -> Result<Film, SceneError> {
+    match reader.child(Kind::Film, context)? {
+        Some(child) => context.translate(FILMS, context.description.node(child.node)),
+        None => overridden(reader, context, Film::new(DEFAULT_SIZE)),
+    }
+}
+
+/// `width` (768), `height` (576), `crop_width`, `crop_height`, `crop_offset_x`, `crop_offset_y`,
+/// `sample_border` (`high_quality_edges` in version 0.6; false), and a filter.
+fn film<'a>(reader: &mut PluginReader<'a>, context: &mut Context<'a>) -> Result<Film, SceneError> {
+    let [width, height] = DEFAULT_SIZE;
+    let size = [pixels(reader, "width", width)?, pixels(reader, "height", height)?];
+    for (name, n) in ["width", "height"].into_iter().zip(size) {
+        if n == 0 {
+            return Err(reader.error(name, format!("the film has no pixels: its {name} is 0")));
+        }
+    }
+    let offset = [pixels(reader, "crop_offset_x", 0)?, pixels(reader, "crop_offset_y", 0)?];
+    let rest = [0, 1].map(|axis| size[axis].saturating_sub(offset[axis]));
+    let crop = [pixels(reader, "crop_width", rest[0])?, pixels(reader, "crop_height", rest[1])?];
+    let filter = match reader.child(Kind::ReconstructionFilter, context)? {
+        Some(child) => context.translate(FILTERS, context.description.node(child.node))?,
+        None => ReconstructionFilter::default(),
+    };
+    let high_quality = reader.boolean("high_quality_edges", false)?;
+    let sample_border = reader.boolean("sample_border", high_quality)?;
+    reader.ignore(&[
+        "file_format",
+        "pixel_format",
+        "component_format",
+        "channel_names",
+        "attach_log",
+        "banner",
+        "compensate",
+        "exposure",
+        "gamma",
+        "key",
+        "burn",
+        "tonemap_method",
+    ]);
+    let crop = Crop { offset, size: crop };
+    let film = Film { size, crop, filter, sample_border };
+    overridden(reader, context, film)
+}
+
+/// The film with what the caller asks for instead, checked.
+fn overridden(
+    reader: &PluginReader<'_>,
+    context: &Context<'_>,
+    film: Film,
+) -> Result<Film, SceneError> {
+    let film = with_overrides(film, context);
+    let [width, height] = film.size.map(u64::from);
+    if width * height > MOST_PIXELS {
+        let message = format!("a film of {width} × {height} pixels is too large");
+        return Err(SceneError::resource(reader.location("width"), message)
+            .help(format!("at most {MOST_PIXELS} pixels are possible")));
+    }
+    if film.contains_crop() {
+        Ok(film)
+    } else {
+        let [x, y] = film.crop.offset;
+        let [w, h] = film.crop.size;
+        let message = format!(
+            "the crop of {w} × {h} pixels at ({x}, {y}) is empty or exceeds the film of \
+             {width} × {height} pixels"
+        );
+        Err(reader.error("crop_width", message))
+    }
+}
+
+/// The film in the size and with the crop the caller asks for.
+pub(super) fn with_overrides(mut film: Film, context: &Context<'_>) -> Film {
+    if let Some(size) = context.options.film_size {
+        film.size = size;
+        film.crop = Crop { offset: [0, 0], size };
+    }
+    if let Some(crop) = context.options.crop {
+        film.crop = crop;
+    }
+    film
+}
+
+fn pixels(
+    reader: &mut PluginReader<'_>,
+    name: &'static str,
+    default: u32,
+) -> Result<u32, SceneError> {
+    match reader.integer(name)? {
+        None => Ok(default),
+        Some(n) => u32::try_from(n)
+            .map_err(|_| reader.error(name, format!("“{name}” cannot be {n} pixels"))),
+    }
+}
+
+/// A positive parameter of a filter.
+fn width(
+    reader: &mut PluginReader<'_>,
+    name: &'static str,
+    default: f64,
+) -> Result<f32, SceneError> {
+    // Wider filters than this would average a picture away, and cost time without end.
+    let valid = |x: f64| x > 0.0 && x <= 64.0;
+    reader.float_in(name, default, "between 0 and 64 pixels", valid).map(|x| x as f32)
+}
+
+fn box_filter<'a>(
+    reader: &mut PluginReader<'a>,
+    _: &mut Context<'a>,
+) -> Result<ReconstructionFilter, SceneError> {
+    Ok(ReconstructionFilter::Box { radius: width(reader, "radius", 0.5)? })
+}
+
+fn tent<'a>(
+    reader: &mut PluginReader<'a>,
+    _: &mut Context<'a>,
+) -> Result<ReconstructionFilter, SceneError> {
+    Ok(ReconstructionFilter::Tent { radius: width(reader, "radius", 1.0)? })
+}
+
+fn gaussian<'a>(
+    reader: &mut PluginReader<'a>,
+    _: &mut Context<'a>,
+) -> Result<ReconstructionFilter, SceneError> {
+    Ok(ReconstructionFilter::Gaussian { stddev: width(reader, "stddev", 0.5)? })
+}
+
+/// Mitsuba calls the two parameters `A` and `B` since version 2, as we do; version 0.6 used `B`, `C`.
+fn mitchell<'a>(
+    reader: &mut PluginReader<'a>,
+    _: &mut Context<'a>,
+) -> Result<ReconstructionFilter, SceneError> {
+    let b = reader.float("A")?.unwrap_or(1.0 / 3.0) as f32;
+    let c = reader.float("B")?.unwrap_or(1.0 / 3.0) as f32;
+    Ok(ReconstructionFilter::Mitchell { b, c })
+}
+
+fn catmull_rom<'a>(
+    _: &mut PluginReader<'a>,
+    _: &mut Context<'a>,
+) -> Result<ReconstructionFilter, SceneError> {
+    Ok(ReconstructionFilter::CatmullRom)
+}
+
+fn lanczos<'a>(
+    reader: &mut PluginReader<'a>,
+    _: &mut Context<'a>,
+) -> Result<ReconstructionFilter, SceneError> {
+    let lobes = reader.integer("lobes")?.unwrap_or(3);
+    match u32::try_from(lobes) {
+        Ok(lobes @ 1..=64) => Ok(ReconstructionFilter::Lanczos { lobes }),
+        _ => Err(reader.error("lobes", format!("“lobes” must be from 1 to 64, not {lobes}"))),
+    }
+}

@@ -1,0 +1,33 @@
+//! Images as textures and environment maps.
+
+use std::format;
+
+use super::Context;
+use super::reader::PluginReader;
+use crate::SceneError;
+use crate::load::{Encoding, load_image};
+use crate::texture::BitmapImage;
+
+/// The image that the parameter `filename` names.
+///
+/// # Errors
+/// A missing name, a file that is no image, texels that are NaN or infinite.
+pub(super) fn image(
+    reader: &mut PluginReader<'_>,
+    context: &mut Context<'_>,
+    encoding: Encoding,
+) -> Result<BitmapImage, SceneError> {
+    let Some(name) = reader.string("filename")? else {
+        return Err(reader.error("filename", format!("{} has no “filename”", reader.title())));
+    };
+    let path = reader.node().search.resolve(name);
+    let image = load_image(&path, encoding).map_err(|mut error| {
+        let place = reader.location("filename");
+        error.message = format!("{} (named at {place})", error.message);
+        error
+    })?;
+    context.files.push(path);
+    let channels = image.channels() as u32;
+    BitmapImage::from_f32(image.width(), image.height(), channels, image.data())
+        .map_err(|e| reader.error("filename", format!("{name}: {e}")))
+}

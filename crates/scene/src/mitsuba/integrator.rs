@@ -1,0 +1,78 @@
+//! Integrators, all of which are our path tracer.
+
+use std::format;
+
+use super::reader::PluginReader;
+use super::{Context, Family};
+use crate::SceneError;
+use crate::scene::PathSettings;
+use crate::xml::{Kind, NodeId};
+
+/// The integrators there are.
+const INTEGRATORS: &Family<PathSettings> = &[
+    ("direct", direct),
+    ("moment", moment),
+    ("path", path),
+    ("volpath", path),
+    ("volpathmis", path),
+];
+
+/// The paths the integrator of a scene asks for.
+pub(super) fn translate(context: &mut Context<'_>, id: NodeId) -> Result<PathSettings, SceneError> {
+    context.translate(INTEGRATORS, context.description.node(id))
+}
+
+/// `max_depth` (−1, unlimited), `rr_depth` (5), `hide_emitters` (false), `strict_normals` (false).
+fn path<'a>(
+    reader: &mut PluginReader<'a>,
+    _: &mut Context<'a>,
+) -> Result<PathSettings, SceneError> {
+    let max_depth = depth(reader.integer("max_depth")?.unwrap_or(-1)).ok_or_else(|| {
+        reader.error("max_depth", "“max_depth” must be −1 (unlimited) or not negative")
+    })?;
+    let roulette = reader.integer("rr_depth")?.unwrap_or(5);
+    let roulette_depth = u32::try_from(roulette).ok().filter(|&n| n > 0).ok_or_else(|| {
+        reader.error("rr_depth", format!("“rr_depth” must be positive, not {roulette}"))
+    })?;
+    Ok(PathSettings {
+        max_depth,
+        roulette_depth,
+        hide_emitters: reader.boolean("hide_emitters", false)?,
+        strict_normals: reader.boolean("strict_normals", false)?,
+    })
+}
+
+/// Direct light: paths of two edges. `hide_emitters` (false), `strict_normals` (false).
+fn direct<'a>(
+    reader: &mut PluginReader<'a>,
+    _: &mut Context<'a>,
+) -> Result<PathSettings, SceneError> {
+    // How many samples go to lights and how many to surfaces is decided per path here.
+    reader.ignore(&["shading_samples", "emitter_samples", "bsdf_samples"]);
+    Ok(PathSettings {
+        max_depth: Some(2),
+        hide_emitters: reader.boolean("hide_emitters", false)?,
+        strict_normals: reader.boolean("strict_normals", false)?,
+        ..PathSettings::default()
+    })
+}
+
+/// A wrapper that adds the second moment to the picture, which is not a matter of the scene here.
+fn moment<'a>(
+    reader: &mut PluginReader<'a>,
+    context: &mut Context<'a>,
+) -> Result<PathSettings, SceneError> {
+    match reader.children(Kind::Integrator, context)[..] {
+        [inner] => translate(context, inner.node),
+        _ => Err(reader.error("integrator", "“moment” needs one integrator inside")),
+    }
+}
+
+/// The number of edges that a `max_depth` stands for; −1 is unlimited, which is `Some(None)`.
+pub(super) fn depth(max_depth: i64) -> Option<Option<u32>> {
+    match max_depth {
+        -1 => Some(None),
+        0.. => Some(Some(u32::try_from(max_depth).unwrap_or(u32::MAX))),
+        _ => None,
+    }
+}

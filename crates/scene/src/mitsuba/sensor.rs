@@ -1,0 +1,121 @@
+//! Cameras.
+
+use std::format;
+
+use super::reader::PluginReader;
+use super::{Context, Family, film, sampler};
+use crate::SceneError;
+use crate::camera::{Camera, FieldOfView, FovAxis, Projection};
+use crate::film::Film;
+use crate::scene::SamplingSettings;
+use crate::xml::{NodeId, parse_float};
+
+/// A camera with what belongs to it.
+pub(super) struct Sensor {
+    pub(super) camera: Camera,
+    pub(super) film: Film,
+    pub(super) sampling: SamplingSettings,
+}
+
+/// The sensors there are.
+const SENSORS: &Family<Sensor> =
+    &[("orthographic", orthographic), ("perspective", perspective), ("thinlens", thin_lens)];
+
+/// Mitsuba's clipping distances.
+const NEAR_CLIP: f64 = 1e-2;
+const FAR_CLIP: f64 = 1e4;
+
+/// The sensor a node describes.
+pub(super) fn translate(context: &mut Context<'_>, id: NodeId) -> Result<Sensor, SceneError> {
+    context.translate(SENSORS, context.description.node(id))
+}
+
+/// `fov` with `fov_axis` (x), or `focal_length` (50mm); `principal_point_offset_x`,
+/// `principal_point_offset_y`, and what all sensors have.
+fn perspective<'a>(
+    reader: &mut PluginReader<'a>,
+    context: &mut Context<'a>,
+) -> Result<Sensor, SceneError> {
+    let field_of_view = field_of_view(reader)?;
+    let offset_x = reader.float("principal_point_offset_x")?.unwrap_or(0.0) as f32;
+    let offset_y = reader.float("principal_point_offset_y")?.unwrap_or(0.0) as f32;
+    // What is in focus matters to lenses only.
+    reader.ignore(&["focus_distance"]);
+    let principal_point_offset = [offset_x, offset_y];
+    sensor(reader, context, Projection::Perspective { field_of_view, principal_point_offset })
+}
+
+/// `aperture_radius`, `focus_distance` (the far clip), `fov` as of `perspective`.
+fn thin_lens<'a>(
+    reader: &mut PluginReader<'a>,
+    context: &mut Context<'a>,
+) -> Result<Sensor, SceneError> {
+    let field_of_view = field_of_view(reader)?;
+    let Some(aperture_radius) = reader.float("aperture_radius")? else {
+        return Err(reader.error("aperture_radius", "the lens has no “aperture_radius”"));
+    };
+    let far = reader.float("far_clip")?.unwrap_or(FAR_CLIP);
+    let focus_distance = reader.float("focus_distance")?.unwrap_or(far) as f32;
+    let aperture_radius = aperture_radius as f32;
+    sensor(reader, context, Projection::ThinLens { field_of_view, aperture_radius, focus_distance })
+}
+
+/// Parallel rays; what all sensors have.
+fn orthographic<'a>(
+    reader: &mut PluginReader<'a>,
+    context: &mut Context<'a>,
+) -> Result<Sensor, SceneError> {
+    reader.ignore(&["focus_distance"]);
+    sensor(reader, context, Projection::Orthographic)
+}
+
+/// What all sensors have: `to_world`, `near_clip` (0.01), `far_clip` (10 000), film and sampler.
+fn sensor<'a>(
+    reader: &mut PluginReader<'a>,
+    context: &mut Context<'a>,
+    projection: Projection,
+) -> Result<Sensor, SceneError> {
+    let film = film::of(reader, context)?;
+    let sampling = sampler::of(reader, context)?;
+    let to_world = reader.transform("to_world")?;
+    let near = reader.float("near_clip")?.unwrap_or(NEAR_CLIP) as f32;
+    let far = reader.float("far_clip")?.unwrap_or(FAR_CLIP) as f32;
+    // Nothing moves, so it does not matter when the shutter is open.
+    reader.ignore(&["shutter_open", "shutter_close"]);
+    let camera = Camera::new(projection, to_world, near, far, film.size)
+        .map_err(|e| reader.error("fov", format!("{}: {e}", reader.title())))?;
+    Ok(Sensor { camera, film, sampling })
+}
+
+fn field_of_view(reader: &mut PluginReader<'_>) -> Result<FieldOfView, SceneError> {
+    let axis = reader.choice(
+        "fov_axis",
+        &[
+            ("x", FovAxis::X),
+            ("y", FovAxis::Y),
+            ("diagonal", FovAxis::Diagonal),
+            ("smaller", FovAxis::Smaller),
+            ("larger", FovAxis::Larger),
+        ],
+    )?;
+    let focal_length = reader.string("focal_length")?;
+    match (reader.float("fov")?, focal_length) {
+        (Some(_), Some(_)) => {
+            Err(reader.error("focal_length", "give either “fov” or “focal_length”"))
+        }
+        (Some(degrees), None) if degrees > 0.0 && degrees < 180.0 => {
+            Ok(FieldOfView::Angle { degrees, axis })
+        }
+        (Some(degrees), None) => {
+            let message = format!("“fov” must lie between 0 and 180 degrees, but is {degrees}");
+            Err(reader.error("fov", message))
+        }
+        (None, text) => {
+            let text = text.unwrap_or("50mm");
+            let millimetres = parse_float(text.strip_suffix("mm").unwrap_or(text));
+            millimetres
+                .map(|millimetres| FieldOfView::FocalLength { millimetres })
+                .ok_or_else(|| reader.error("focal_length", format!("“{text}” is no focal length")))
+        }
+    }
+}

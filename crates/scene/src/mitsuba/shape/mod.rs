@@ -1,0 +1,106 @@
+//! Shapes.
+
+mod group;
+mod mesh;
+mod primitive;
+mod surface;
+
+pub(super) use mesh::shaded;
+
+use std::format;
+use std::string::String;
+use std::vec::Vec;
+
+use super::{Context, Family};
+use crate::SceneError;
+use crate::geometry::{GroupId, Shape, Transform};
+use crate::light::{AreaLight, Light, LightId};
+use crate::material::MaterialId;
+use crate::scene::SurfaceInfo;
+use crate::texture::TextureId;
+use crate::xml::NodeId;
+
+/// The shapes there are.
+const SHAPES: &Family<Item> = &[
+    ("cube", mesh::cube),
+    ("cylinder", primitive::cylinder),
+    ("disk", primitive::disk),
+    ("instance", group::instance),
+    ("obj", mesh::obj),
+    ("ply", mesh::ply),
+    ("rectangle", primitive::rectangle),
+    ("serialized", mesh::serialized),
+    ("shapegroup", group::group),
+    ("sphere", primitive::sphere),
+];
+
+/// What a shape plugin stands for.
+pub(super) enum Item {
+    /// A shape of its own.
+    Surface(Surface),
+    /// Shapes that are seen only where an instance puts them.
+    Group(Vec<Surface>),
+    /// A group at a place.
+    Instance(GroupId, Transform),
+}
+
+/// A shape, what it is made of and what it emits.
+pub(super) struct Surface {
+    pub(super) shape: Shape,
+    pub(super) material: MaterialId,
+    /// Of an area light.
+    pub(super) radiance: Option<TextureId>,
+    pub(super) name: String,
+}
+
+/// Adds the shape, group or instance a node describes.
+pub(super) fn add(context: &mut Context<'_>, id: NodeId) -> Result<(), SceneError> {
+    let node = context.description.node(id);
+    if context.groups.contains_key(&id) {
+        return Ok(());
+    }
+    match context.translate(SHAPES, node)? {
+        Item::Surface(surface) => add_surface(context, surface),
+        Item::Group(surfaces) => {
+            let group = add_group(context, surfaces);
+            context.groups.insert(id, group);
+        }
+        Item::Instance(group, transform) => {
+            context.geometry.add_instance(group, transform);
+        }
+    }
+    Ok(())
+}
+
+/// Adds a shape that is seen where it stands.
+pub(super) fn add_surface(context: &mut Context<'_>, surface: Surface) {
+    let Surface { shape, material, radiance, name } = surface;
+    let shape = context.geometry.add_shape(shape);
+    let light = radiance.map(|radiance| {
+        context.lights.push(Light::Area(AreaLight { shape, radiance }));
+        LightId(context.lights.len() as u32 - 1)
+    });
+    context.surfaces.push(SurfaceInfo { material, light, name });
+}
+
+fn add_group(context: &mut Context<'_>, surfaces: Vec<Surface>) -> GroupId {
+    let mut shapes = Vec::with_capacity(surfaces.len());
+    for Surface { shape, material, name, .. } in surfaces {
+        shapes.push(shape);
+        context.surfaces.push(SurfaceInfo { material, light: None, name });
+    }
+    context.geometry.add_group(shapes).0
+}
+
+/// The group a node describes, added where that has not happened yet.
+fn group_of(context: &mut Context<'_>, id: NodeId) -> Result<GroupId, SceneError> {
+    let node = context.description.node(id);
+    if node.plugin != "shapegroup" {
+        let message = format!("an instance needs a shapegroup, not a shape “{}”", node.plugin);
+        return Err(SceneError::scene(node.location.clone(), message));
+    }
+    add(context, id)?;
+    context.groups.get(&id).copied().ok_or_else(|| {
+        SceneError::scene(node.location.clone(), "the shapegroup contains its own instance")
+    })
+}

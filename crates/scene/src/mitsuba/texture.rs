@@ -1,0 +1,94 @@
+//! Textures.
+
+use super::image::image;
+use super::reader::PluginReader;
+use super::value::{Role, color_or, texture_or};
+use super::{Context, Family};
+use crate::SceneError;
+use crate::load::Encoding;
+use crate::texture::{Bitmap, Checkerboard, Filter, Texture, TextureId, Wrap};
+use crate::xml::NodeId;
+
+/// The textures there are, spectra with a type included.
+const TEXTURES: &Family<TextureId> = &[
+    ("bitmap", bitmap),
+    ("checkerboard", checkerboard),
+    ("d65", d65),
+    ("srgb", srgb),
+    ("uniform", uniform),
+];
+
+/// The texture a node describes, translated once however often it is referred to.
+pub(super) fn translate(context: &mut Context<'_>, id: NodeId) -> Result<TextureId, SceneError> {
+    if let Some(&texture) = context.texture_ids.get(&id) {
+        return Ok(texture);
+    }
+    let node = context.description.node(id);
+    let texture = context.translate(TEXTURES, node)?;
+    context.texture_ids.insert(id, texture);
+    Ok(texture)
+}
+
+fn bitmap<'a>(
+    reader: &mut PluginReader<'a>,
+    context: &mut Context<'a>,
+) -> Result<TextureId, SceneError> {
+    // Version 0.6 asked for gamma 1 where today's files say raw.
+    let linear = reader.float("gamma")?.is_some_and(|gamma| gamma == 1.0);
+    let encoding = if reader.boolean("raw", linear)? { Encoding::Raw } else { Encoding::Srgb };
+    let filter = reader.choice(
+        "filter_type",
+        &[
+            ("bilinear", Filter::Bilinear),
+            ("nearest", Filter::Nearest),
+            // Version 0.6's filters across levels of detail.
+            ("trilinear", Filter::Bilinear),
+            ("ewa", Filter::Bilinear),
+        ],
+    )?;
+    let wrap = reader.choice(
+        "wrap_mode",
+        &[("repeat", Wrap::Repeat), ("mirror", Wrap::Mirror), ("clamp", Wrap::Clamp)],
+    )?;
+    let uv = reader.uv_transform("to_uv")?;
+    // How the image is stored, and levels of detail, which are not used here.
+    reader.ignore(&["accel", "format", "cache", "max_anisotropy"]);
+    let image = image(reader, context, encoding)?;
+    Ok(context.textures.add(Texture::Bitmap(Bitmap::new(image, filter, wrap, uv))))
+}
+
+fn checkerboard<'a>(
+    reader: &mut PluginReader<'a>,
+    context: &mut Context<'a>,
+) -> Result<TextureId, SceneError> {
+    let color0 = texture_or(reader, context, "color0", Role::Reflectance, 0.4)?;
+    let color1 = texture_or(reader, context, "color1", Role::Reflectance, 0.2)?;
+    let uv = reader.uv_transform("to_uv")?;
+    Ok(context.textures.add(Texture::Checkerboard(Checkerboard { color0, color1, uv })))
+}
+
+/// `<spectrum type="uniform">`
+fn uniform<'a>(
+    reader: &mut PluginReader<'a>,
+    context: &mut Context<'a>,
+) -> Result<TextureId, SceneError> {
+    texture_or(reader, context, "value", Role::Material, 1.0)
+}
+
+/// `<spectrum type="srgb">`
+fn srgb<'a>(
+    reader: &mut PluginReader<'a>,
+    context: &mut Context<'a>,
+) -> Result<TextureId, SceneError> {
+    texture_or(reader, context, "color", Role::Material, 1.0)
+}
+
+/// `<spectrum type="d65">`, which is white in RGB.
+fn d65<'a>(
+    reader: &mut PluginReader<'a>,
+    context: &mut Context<'a>,
+) -> Result<TextureId, SceneError> {
+    let scale = reader.float_in("scale", 1.0, "not negative", |x| x >= 0.0)? as f32;
+    let color = color_or(reader, context, "color", Role::Emission, 1.0)?;
+    Ok(context.textures.constant(color * scale))
+}
