@@ -115,8 +115,8 @@ fn read_obj(text: &str) -> (Vec<Vec3>, Vec<[u32; 3]>) {
 fn bumpy_sphere(rows: u32, columns: u32) -> (Vec<Vec3>, Vec<[u32; 3]>) {
     use etendue_math::Real;
     let position = |row: u32, column: u32| {
-        let theta = std::f32::consts::PI * row as f32 / rows as f32;
-        let phi = std::f32::consts::TAU * column as f32 / columns as f32;
+        let theta = core::f32::consts::PI * row as f32 / rows as f32;
+        let phi = core::f32::consts::TAU * column as f32 / columns as f32;
         let r = 1.0 + 0.1 * Real::sin(9.0 * theta) * Real::cos(11.0 * phi);
         let (sin, cos) = Real::sin_cos(theta);
         Vec3::new(sin * Real::cos(phi), cos, sin * Real::sin(phi)) * r
@@ -142,7 +142,7 @@ impl Random {
 
     fn direction(&mut self) -> Vec3 {
         loop {
-            let v = Vec3::from_array(std::array::from_fn(|_| 2.0 * self.uniform() - 1.0));
+            let v = Vec3::from_array(core::array::from_fn(|_| 2.0 * self.uniform() - 1.0));
             if v.length_squared() > 1e-6 && v.length_squared() < 1.0 {
                 return v.normalize();
             }

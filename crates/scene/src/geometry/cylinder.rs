@@ -174,3 +174,32 @@ impl Cylinder {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use etendue_math::glam::Vec3;
+
+    #[test]
+    fn rays_pass_through_the_open_ends_and_along_the_axis() {
+        let c = Cylinder::new(DVec3::ZERO, DVec3::Z * 2.0, 1.0, &Transform::IDENTITY);
+        let c = c.expect("a cylinder");
+        assert_eq!(c.intersect(&Ray::new(Vec3::new(0.5, 0.0, -1.0), Vec3::Z)), None);
+        assert_eq!(c.intersect(&Ray::new(Vec3::new(3.0, 0.0, 1.0), -Vec3::X)), Some(2.0));
+        // In through an open end, out through the wall.
+        let slanted = Ray::new(Vec3::new(0.0, 0.0, -0.5), Vec3::new(1.0, 0.0, 1.0));
+        assert_eq!(c.intersect(&slanted), Some(1.0));
+        let p = c.surface(&slanted, 1.0);
+        assert_eq!((p.normal, p.uv), (Vec3::X, [0.0, 0.25]));
+        assert_eq!(c.flipped().surface(&slanted, 1.0).normal, -Vec3::X);
+    }
+
+    #[test]
+    fn oblique_and_elliptic_cylinders_are_refused() {
+        let stretch = Transform::scale(DVec3::new(1.0, 2.0, 1.0)).expect("a map");
+        let cylinder = |p1, t| Cylinder::new(DVec3::ZERO, p1, 1.0, t).map(|_| ());
+        assert_eq!(cylinder(DVec3::Z, &stretch), Err(ShapeError::NonUniformScale));
+        assert_eq!(cylinder(DVec3::ONE, &stretch), Err(ShapeError::NonUniformScale));
+        assert_eq!(cylinder(DVec3::ZERO, &Transform::IDENTITY), Err(ShapeError::NoAxis));
+    }
+}

@@ -97,3 +97,21 @@ impl Disk {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_radius_is_u_and_the_azimuth_v() {
+        let grow = Transform::scale(DVec3::new(4.0, 2.0, 1.0)).expect("a map");
+        let disk = Disk::new(&grow);
+        let ray = Ray::new(Vec3::new(0.0, 1.0, 3.0), -Vec3::Z);
+        assert_eq!(disk.intersect(&ray), Some(3.0));
+        let p = disk.surface(&ray);
+        assert_eq!((p.uv, p.normal), ([0.5, 0.25], Vec3::Z));
+        assert_eq!((p.dp_du, p.dp_dv), (Vec3::Y * 2.0, Vec3::X * -4.0));
+        assert_eq!(disk.intersect(&Ray::new(Vec3::new(0.0, 2.1, 3.0), -Vec3::Z)), None);
+        assert_eq!(disk.intersect(&Ray::new(Vec3::X, Vec3::Y)), None);
+    }
+}

@@ -244,4 +244,43 @@ mod tests {
             Err(MeshError::LengthMismatch { attribute: "normal", found: 1, vertices: 3 })
         );
     }
+
+    /// One triangle in the plane z = 0, anticlockwise as seen from +z.
+    fn one(normals: Vec<Vec3>, uvs: Vec<Vec2>) -> TriangleMesh {
+        let positions = vec![Vec3::ZERO, Vec3::X, Vec3::Y];
+        TriangleMesh::new(positions, normals, uvs, vec![[0, 1, 2]]).expect("a valid mesh")
+    }
+
+    #[test]
+    fn vertex_normals_decide_which_side_is_the_front() {
+        let b = [0.25, 0.25];
+        assert_eq!(one(vec![], vec![]).surface(0, b).normal, Vec3::Z);
+        let against = one(vec![-Vec3::Z; 3], vec![]);
+        assert_eq!(against.surface(0, b).normal, -Vec3::Z);
+        assert_eq!(against.flipped().surface(0, b).shading_normal, Vec3::Z);
+        // A zero normal stands for the geometric one.
+        assert_eq!(one(vec![Vec3::ZERO; 3], vec![]).surface(0, b).shading_normal, Vec3::Z);
+    }
+
+    #[test]
+    fn mirroring_keeps_vertex_normals_outside_and_reverses_bare_triangles() {
+        let mirror = Transform::scale(etendue_math::glam::DVec3::new(-1.0, 1.0, 1.0));
+        let mirror = mirror.expect("a map");
+        let front = |mesh: TriangleMesh| {
+            mesh.transformed(&mirror).map(|mesh| mesh.surface(0, [0.2, 0.2]).normal)
+        };
+        assert_eq!(front(one(vec![Vec3::Z; 3], vec![])), Ok(Vec3::Z));
+        assert_eq!(front(one(vec![], vec![])), Ok(-Vec3::Z));
+    }
+
+    #[test]
+    fn tangents_follow_the_texture_coordinates() {
+        let uvs = vec![Vec2::ZERO, Vec2::new(0.0, 0.5), Vec2::new(-2.0, 0.0)];
+        let p = one(vec![], uvs).surface(0, [0.5, 0.25]);
+        assert_eq!(p.uv, [-0.5, 0.25]);
+        assert_eq!((p.dp_du, p.dp_dv), (Vec3::Y * -0.5, Vec3::X * 2.0));
+        // All three vertices at one place of the texture: any tangents will do.
+        let p = one(vec![], vec![Vec2::ONE; 3]).surface(0, [0.5, 0.25]);
+        assert!(p.dp_du.is_finite() && p.dp_du.dot(p.normal) == 0.0);
+    }
 }

@@ -146,7 +146,10 @@ impl Geometry {
         ray.is_valid() && self.backend.run(Occluded { geometry: self, ray })
     }
 
-    /// What is at a hit that [`intersect`](Self::intersect) has found for this ray.
+    /// What is at a hit that [`intersect`](Self::intersect) of this geometry has found for this ray.
+    ///
+    /// # Panics
+    /// A hit of another geometry may name shapes and triangles that do not exist here.
     pub fn surface_point(&self, ray: &Ray, hit: &Hit) -> SurfacePoint {
         let shape = &self.shapes[hit.shape.0 as usize];
         match self.instances.get(hit.instance as usize) {

@@ -209,3 +209,58 @@ fn uniform_scale(t: &Transform) -> Option<f64> {
         && close(m.y_axis.dot(m.z_axis), 0.0);
     (same && orthogonal).then(|| Real::sqrt(squared))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn unit() -> Sphere {
+        Sphere::new(DVec3::ZERO, 1.0, &Transform::IDENTITY).expect("a sphere")
+    }
+
+    #[test]
+    fn far_spheres_are_hit_where_they_are() {
+        for distance in [1e2_f32, 1e4, 1e6] {
+            for offset in [0.0_f32, 0.5, 0.999] {
+                let ray = Ray::new(Vec3::new(offset, 0.0, -distance), Vec3::Z);
+                let want = f64::from(distance) - Real::sqrt(1.0 - f64::from(offset * offset));
+                let t = unit().intersect(&ray).expect("within the radius");
+                // The root is found in f64 and rounded once.
+                assert!(Real::abs(f64::from(t) - want) <= want * f64::from(f32::EPSILON));
+                let p = unit().surface(&ray, t);
+                assert!(Real::abs(p.position.x - offset) <= 1e-6, "{p:?}");
+            }
+            let beside = Ray::new(Vec3::new(1.0001, 0.0, -distance), Vec3::Z);
+            assert_eq!(unit().intersect(&beside), None);
+        }
+    }
+
+    #[test]
+    fn a_ray_from_inside_meets_the_far_side_and_mirroring_turns_the_front_inwards() {
+        let ray = Ray::new(Vec3::new(0.5, 0.0, 0.0), Vec3::X * 2.0);
+        assert_eq!(unit().intersect(&ray), Some(0.25));
+        let mirror = Transform::scale(DVec3::splat(-1.0)).expect("a map");
+        let inward = Sphere::new(DVec3::ZERO, 1.0, &mirror).expect("a sphere");
+        assert_eq!(inward.surface(&ray, 0.25).normal, -Vec3::X);
+        assert_eq!(inward.flipped().surface(&ray, 0.25).normal, Vec3::X);
+    }
+
+    #[test]
+    fn the_azimuth_is_u_and_the_polar_angle_v() {
+        let p = unit().surface(&Ray::new(Vec3::Y * 3.0, -Vec3::Y), 2.0);
+        assert_eq!(p.uv, [0.25, 0.5]);
+        assert!(p.dp_du.x < 0.0 && p.dp_dv.z < 0.0);
+        // ∂p/∂u = 2π and ∂p/∂v = π times unit vectors on the equator.
+        assert!((p.dp_du.length() / p.dp_dv.length() - 2.0).abs() < 1e-6);
+    }
+
+    #[test]
+    fn ellipsoids_and_bad_radii_are_refused() {
+        let stretch = Transform::scale(DVec3::new(1.0, 2.0, 1.0)).expect("a map");
+        let sphere = |radius, t| Sphere::new(DVec3::ZERO, radius, t);
+        assert_eq!(sphere(1.0, &stretch), Err(ShapeError::NonUniformScale));
+        for radius in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+            assert_eq!(sphere(radius, &Transform::IDENTITY), Err(ShapeError::BadRadius));
+        }
+    }
+}
