@@ -1,4 +1,59 @@
 //! Path tracing of étendue scenes.
+//!
+//! [`Renderer`] turns an [`etendue_scene::Scene`] and [`RenderSettings`] into an [`Image`] by
+//! unidirectional path tracing of the rendering equation: emission, light sampling and scattering
+//! combined by multiple importance sampling, Russian roulette, paths of given or any length.
+//!
+//! # Examples
+//! ```
+//! use core::sync::atomic::AtomicBool;
+//! use etendue_renderer::{RenderSettings, Renderer};
+//! # use etendue_math::glam::DVec3;
+//! # use etendue_scene::{Scene, camera::*, film::Film, geometry::*, light::*, scene::*};
+//! # let fov = FieldOfView::Angle { degrees: 40.0, axis: FovAxis::X };
+//! # let pinhole = Projection::Perspective { field_of_view: fov, principal_point_offset: [0.0; 2] };
+//! # let view = Transform::look_at(DVec3::ZERO, DVec3::Y, DVec3::Z)?;
+//! # let radiance = [0.25, 0.5, 1.0].into();
+//! # let scene = Scene::new(SceneParts {
+//! #     geometry: GeometryBuilder::new().build(),
+//! #     surfaces: Vec::new(),
+//! #     materials: Default::default(),
+//! #     textures: Default::default(),
+//! #     lights: vec![Light::Constant(ConstantLight { radiance })],
+//! #     camera: Camera::new(pinhole, view, 0.01, 1e4, [8, 8])?,
+//! #     film: Film::new([8, 8]),
+//! #     sampling: SamplingSettings::default(),
+//! #     path: PathSettings::default(),
+//! # })?;
+//! // A scene that is nothing but a bluish sky.
+//! let settings = RenderSettings { samples_per_pixel: 4, ..RenderSettings::of_scene(&scene) };
+//! let renderer = Renderer::new(&scene, settings)?;
+//! let rendering = renderer.render(&|progress| drop(progress), &AtomicBool::new(false));
+//! assert_eq!(rendering.image.size(), [8, 8]);
+//! assert!((rendering.image.mean().b - 1.0).abs() < 0.01);
+//! assert_eq!(rendering.statistics.non_finite.count(), 0);
+//! # Ok::<(), Box<dyn core::error::Error>>(())
+//! ```
+//!
+//! # Invariants
+//! - The same scene, settings and version give the same bits for any number of threads and any
+//!   order of tiles: random numbers are addressed by (seed, pixel, sample, decision), pixels own
+//!   their samples, and statistics merge in any order.
+//! - Nothing is clamped and nothing dropped in silence: a sample that is NaN or infinite is counted
+//!   and located in [`Statistics`], and [`Renderer::sample`] computes it again.
+//! - No allocation and no dynamic dispatch per sample.
+//!
+//! # Modules of interest
+//! | type | what it decides |
+//! | --- | --- |
+//! | [`FilterSampler`] | where in a pixel's neighbourhood a sample lies |
+//! | [`LightSampler`] | which light is sampled for a point: a light tree |
+//! | [`Strategy`] | how light is found: both ways, or one of them |
+//! | [`image_metrics`] | how far two pictures are apart |
+//!
+//! # Non-goals
+//! No bidirectional methods, no denoising, no tone mapping, no files: pictures leave as linear
+//! radiance.
 
 mod film;
 pub mod image_metrics;
@@ -10,6 +65,7 @@ mod render;
 mod settings;
 mod statistics;
 mod tile;
+
 pub use film::{FilmSample, FilterSampler, Image, PixelFilter, PixelSum};
 pub use light_sampler::{LightChoice, LightSampler, Receiver, Sides};
 pub use render::{Progress, Renderer, Rendering, ThreadError};

@@ -107,7 +107,8 @@ impl<'a> Renderer<'a> {
         self.path_sample(&self.tracer(), &filter, &points, &mut RayCounts::default())
     }
 
-    fn render_tiles(
+    /// Renders the given tiles, in this order.
+    pub(crate) fn render_tiles(
         &self,
         tiles: &[Tile],
         report: &(dyn Fn(Progress) + Sync),

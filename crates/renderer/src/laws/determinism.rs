@@ -9,8 +9,8 @@ use etendue_scene::film::{Crop, ReconstructionFilter};
 use etendue_scene::scene::SamplerKind;
 
 use super::scenes::{Sketch, rectangle, settings, sphere};
-use crate::render::Rendering;
-use crate::{Progress, RenderSettings, Renderer, Strategy};
+use crate::tile::Tile;
+use crate::{Progress, RenderSettings, Renderer, Rendering, Strategy};
 
 fn scene() -> Scene {
     let mut sketch = Sketch::default();
@@ -42,6 +42,18 @@ fn one_two_and_seven_threads_give_the_same_bits() {
             assert_eq!(one, render(&scene, with_threads(threads, sampler)));
         }
     }
+}
+
+#[test]
+fn the_order_of_tiles_changes_nothing() {
+    let scene = scene();
+    let renderer = Renderer::new(&scene, with_threads(2, SamplerKind::Sobol)).expect("threads");
+    let go_on = AtomicBool::new(false);
+    let mut tiles = Tile::cover(&scene.film.crop);
+    let in_order = renderer.render_tiles(&tiles, &|_| (), &go_on);
+    tiles.sort_by_key(|tile| etendue_math::hash_u32(tile.offset[0] * 1000 + tile.offset[1]));
+    assert_ne!(tiles, Tile::cover(&scene.film.crop));
+    assert_eq!(in_order, renderer.render_tiles(&tiles, &|_| (), &go_on));
 }
 
 #[test]

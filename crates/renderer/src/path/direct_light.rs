@@ -1,0 +1,99 @@
+//! Light that comes straight from a sampled light.
+
+use etendue_brdf::{Bsdf, Density};
+use etendue_math::Spectrum;
+use etendue_sampling::{Decision, Sampler, mis};
+use etendue_scene::Color;
+use etendue_scene::geometry::SurfacePoint;
+use etendue_scene::light::LightSample;
+
+use super::{LightSampling, PathTracer, Several, Vertex};
+use crate::light_sampler::Receiver;
+use crate::settings::Strategy;
+use crate::statistics::RayCounts;
+
+impl PathTracer<'_> {
+    /// An estimate, by one light sample, of the light scattered towards the camera.
+    pub(super) fn direct_light<S: Sampler>(
+        &self,
+        vertex: &Vertex<'_>,
+        points: &S,
+        rays: &mut RayCounts,
+    ) -> Color {
+        if self.light_sampling == LightSampling::Useless || !vertex.bsdf.lobes().continuous {
+            return Color::black();
+        }
+        let Some((sample, probability)) = self.sample_light(vertex, points) else {
+            return Color::black();
+        };
+        let wi = vertex.point.shading.to_local(sample.direction);
+        if self.is_inconsistent(vertex, sample.direction, wi) {
+            return Color::black();
+        }
+        let (f, scattering_density) = vertex.bsdf.eval_pdf(vertex.wo, wi);
+        let scale = match sample.density {
+            Density::Delta(p) => 1.0 / (p * probability),
+            Density::Continuous(p) => {
+                let density = p * probability;
+                self.light_weight(density, scattering_density) / density
+            }
+        };
+        let light = f * sample.radiance * (scale * wi.z.abs());
+        if light.is_black() || self.occluded(&vertex.point, &sample, rays) {
+            return Color::black();
+        }
+        light
+    }
+
+    /// A light sample and the probability of having chosen its light.
+    fn sample_light<S: Sampler>(
+        &self,
+        vertex: &Vertex<'_>,
+        points: &S,
+    ) -> Option<(LightSample, f32)> {
+        let u = if self.lights.count() > 1 {
+            points.sample_1d(vertex.dimension(Decision::LightChoice))
+        } else {
+            0.0
+        };
+        let choice = self.lights.choose(&vertex.receiver, u)?;
+        let u = points.sample_2d(vertex.dimension(Decision::LightPoint));
+        let sample = self.scene.sample_light(choice.light, choice.primitive, &vertex.point, u)?;
+        match sample.density {
+            Density::Continuous(_)
+                if sample.target.is_none() && self.several_infinite_lights == Several::Yes =>
+            {
+                Some((self.over_all_infinite_lights(&vertex.receiver, &sample), 1.0))
+            }
+            _ => Some((sample, choice.probability)),
+        }
+    }
+
+    /// The same direction as if drawn from the mixture of all infinite lights: what the scattered
+    /// ray that leaves the scene in this direction finds, too.
+    fn over_all_infinite_lights(&self, receiver: &Receiver, sample: &LightSample) -> LightSample {
+        LightSample {
+            radiance: self.scene.background(sample.direction),
+            density: Density::Continuous(self.infinite_density(receiver, sample.direction)),
+            ..*sample
+        }
+    }
+
+    /// Weight of light that light sampling has found and that scattering could have found.
+    fn light_weight(&self, light_density: f32, scattering_density: f32) -> f32 {
+        match self.strategy {
+            Strategy::Mis => mis::power(light_density, scattering_density),
+            Strategy::LightOnly => 1.0,
+            Strategy::BsdfOnly => 0.0,
+        }
+    }
+
+    fn occluded(&self, point: &SurfacePoint, sample: &LightSample, rays: &mut RayCounts) -> bool {
+        rays.shadow += 1;
+        let ray = match sample.target {
+            Some(target) => point.spawn_to(target),
+            None => point.spawn(sample.direction),
+        };
+        self.scene.geometry.occluded(&ray)
+    }
+}

@@ -1,0 +1,67 @@
+//! Light that a ray has found: emitted by what it meets, or from where there is nothing.
+
+use etendue_math::Spectrum;
+use etendue_math::glam::Vec3;
+use etendue_sampling::mis;
+use etendue_scene::Color;
+use etendue_scene::geometry::SurfacePoint;
+use etendue_scene::light::LightId;
+
+use super::{Arrival, PathTracer, Walk};
+use crate::light_sampler::Receiver;
+use crate::settings::Strategy;
+
+impl PathTracer<'_> {
+    /// Light that the surface itself emits along the ray, weighted for how the ray was found.
+    pub(super) fn emitted(&self, walk: &Walk, point: &SurfacePoint) -> Color {
+        let direction = walk.ray.direction;
+        let Some((light, radiance)) = self.scene.emitted(point, -direction) else {
+            return Color::black();
+        };
+        let weight = self.scattering_weight(&walk.arrival, |receiver, from| {
+            self.lights.probability(receiver, light, point.primitive)
+                * self.scene.light_pdf_hit(light, from, point)
+        });
+        radiance * weight
+    }
+
+    /// Light from infinitely far away, weighted for how the ray was found.
+    pub(super) fn escaped(&self, walk: &Walk) -> Color {
+        let direction = walk.ray.direction;
+        // A ray that ends at the far clipping plane has seen nothing yet, but only cameras have one.
+        if self.hides_emitters(walk) || self.scene.infinite_lights().is_empty() {
+            return Color::black();
+        }
+        let radiance = self.scene.background(direction);
+        if radiance.is_black() {
+            return radiance;
+        }
+        let density = |receiver: &Receiver, _| self.infinite_density(receiver, direction);
+        radiance * self.scattering_weight(&walk.arrival, density)
+    }
+
+    /// Density with which light sampling draws a direction towards infinite lights.
+    pub(super) fn infinite_density(&self, receiver: &Receiver, direction: Vec3) -> f32 {
+        let density = |&light: &LightId| {
+            self.lights.probability(receiver, light, 0)
+                * self.scene.light_pdf_escaped(light, direction)
+        };
+        self.scene.infinite_lights().iter().map(density).sum()
+    }
+
+    /// Weight of light that a scattered ray has found and that light sampling would have found with
+    /// density `light_density(receiver, position)`.
+    fn scattering_weight(
+        &self,
+        arrival: &Arrival,
+        light_density: impl FnOnce(&Receiver, Vec3) -> f32,
+    ) -> f32 {
+        match (arrival, self.strategy) {
+            (Arrival::Certain, _) | (_, Strategy::BsdfOnly) => 1.0,
+            (_, Strategy::LightOnly) => 0.0,
+            (Arrival::Scattered { receiver, position, density }, Strategy::Mis) => {
+                mis::power(*density, light_density(receiver, *position))
+            }
+        }
+    }
+}

@@ -1,0 +1,199 @@
+//! Unidirectional path tracing.
+
+mod direct_light;
+mod found_light;
+mod scatter;
+
+use etendue_brdf::Bsdf;
+use etendue_math::Spectrum;
+use etendue_math::glam::Vec3;
+use etendue_sampling::{Decision, Dimension, Sampler};
+use etendue_scene::geometry::{Ray, SurfacePoint};
+use etendue_scene::light::Light;
+use etendue_scene::material::PreparedBsdf;
+use etendue_scene::scene::PathSettings;
+use etendue_scene::{Color, Scene};
+
+use crate::light_sampler::{LightSampler, Receiver, Sides};
+use crate::settings::Strategy;
+use crate::statistics::RayCounts;
+
+/// Solves the rendering equation for one ray at a time.
+///
+/// ```text
+/// L(x, ωo) = Le(x, ωo) + ∫ f(ωi, ωo) L(x', −ωi) |cos θi| dωi
+/// ```
+///
+/// At every vertex one light sample and one scattered ray estimate the integral; light that both
+/// can find is weighted by the power heuristic. What only one of them can find (point lights,
+/// mirror directions) is known by the type of its density and counts in full.
+///
+/// # Source
+/// Kajiya, "The Rendering Equation", SIGGRAPH 1986; Veach, "Robust Monte Carlo Methods for Light
+/// Transport Simulation", 1997, chapters 9 and 10. Depth, roulette and hidden emitters count as
+/// in Mitsuba 3's `path`, pass-through surfaces included: each is a vertex of its own.
+#[derive(Clone, Copy)]
+pub(crate) struct PathTracer<'a> {
+    scene: &'a Scene,
+    lights: &'a LightSampler,
+    settings: PathSettings,
+    strategy: Strategy,
+    light_sampling: LightSampling,
+    several_infinite_lights: Several,
+}
+
+/// Whether light sampling can contribute at all.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum LightSampling {
+    Useful,
+    Useless,
+}
+
+/// How many lights a direction that leaves the scene can belong to.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Several {
+    Yes,
+    No,
+}
+
+/// How the present ray was found: what the light it finds counts for.
+#[derive(Clone, Copy)]
+enum Arrival {
+    /// By the camera or a delta lobe: light sampling could not have found the same light.
+    Certain,
+    /// Scattered at a surface, with a density per steradian.
+    Scattered { receiver: Receiver, position: Vec3, density: f32 },
+}
+
+/// What of the camera's view has been crossed so far.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum View {
+    /// Nothing, or surfaces that let light pass unchanged.
+    Unobstructed,
+    /// A surface that scatters.
+    Scattered,
+}
+
+/// A surface that a path has met.
+struct Vertex<'a> {
+    /// Number of edges from the camera to here.
+    depth: u16,
+    point: SurfacePoint,
+    bsdf: PreparedBsdf<'a>,
+    /// Towards the camera, in the shading frame.
+    wo: Vec3,
+    receiver: Receiver,
+}
+
+impl Vertex<'_> {
+    fn dimension(&self, decision: Decision) -> Dimension {
+        Dimension::vertex(self.depth, decision)
+    }
+}
+
+/// The state of a path under construction.
+struct Walk {
+    ray: Ray,
+    throughput: Color,
+    /// Product of the relative indices of refraction crossed: η of the present medium.
+    eta: f32,
+    arrival: Arrival,
+    view: View,
+}
+
+/// Whether a path goes on.
+enum Fate {
+    Continues,
+    Ends,
+}
+
+impl<'a> PathTracer<'a> {
+    pub(crate) fn new(
+        scene: &'a Scene,
+        lights: &'a LightSampler,
+        settings: PathSettings,
+        strategy: Strategy,
+    ) -> Self {
+        let has_delta_light = scene.lights.iter().any(Light::is_delta);
+        let useful = lights.count() > 0 && (strategy != Strategy::BsdfOnly || has_delta_light);
+        let light_sampling = if useful { LightSampling::Useful } else { LightSampling::Useless };
+        let several_infinite_lights =
+            if scene.infinite_lights().len() > 1 { Several::Yes } else { Several::No };
+        Self { scene, lights, settings, strategy, light_sampling, several_infinite_lights }
+    }
+
+    /// An estimate of the radiance that arrives along a ray of the camera.
+    ///
+    /// Paths end after `u16::MAX` edges at the latest: random numbers have no more addresses.
+    pub(crate) fn radiance<S: Sampler>(
+        &self,
+        camera_ray: Ray,
+        points: &S,
+        rays: &mut RayCounts,
+    ) -> Color {
+        let longest = self.settings.max_depth.unwrap_or(u32::MAX).min(u32::from(u16::MAX)) as u16;
+        let mut radiance = Color::black();
+        let mut walk = Walk {
+            ray: camera_ray,
+            throughput: Color::white(),
+            eta: 1.0,
+            arrival: Arrival::Certain,
+            view: View::Unobstructed,
+        };
+        rays.camera += 1;
+        for depth in 1..=longest {
+            let Some(point) = self.next_surface(&mut walk, rays) else {
+                radiance += walk.throughput * self.escaped(&walk);
+                break;
+            };
+            radiance += walk.throughput * self.emitted(&walk, &point);
+            if depth == longest {
+                break;
+            }
+            let vertex = self.vertex(depth, point, walk.ray.direction);
+            if self.is_inconsistent(&vertex, -walk.ray.direction, vertex.wo) {
+                break;
+            }
+            radiance += walk.throughput * self.direct_light(&vertex, points, rays);
+            match self.scatter(&vertex, &mut walk, points) {
+                Fate::Continues => rays.indirect += 1,
+                Fate::Ends => break,
+            }
+        }
+        radiance
+    }
+
+    /// The surface that the ray meets; a camera that must not see emitters looks through them.
+    fn next_surface(&self, walk: &mut Walk, rays: &mut RayCounts) -> Option<SurfacePoint> {
+        loop {
+            let hit = self.scene.geometry.intersect(&walk.ray)?;
+            let point = self.scene.geometry.surface_point(&walk.ray, &hit);
+            if !(self.hides_emitters(walk) && self.is_emitter(&point)) {
+                return Some(point);
+            }
+            let far_end = walk.ray.at(walk.ray.t_max);
+            let onwards = point.spawn(walk.ray.direction);
+            // The far clipping plane stays where it is.
+            let t_max = if far_end.is_finite() { walk.ray.t_max - hit.t } else { f32::INFINITY };
+            walk.ray = Ray { t_max, ..onwards };
+            rays.camera += 1;
+        }
+    }
+
+    fn hides_emitters(&self, walk: &Walk) -> bool {
+        self.settings.hide_emitters && walk.view == View::Unobstructed
+    }
+
+    fn is_emitter(&self, point: &SurfacePoint) -> bool {
+        self.scene.surfaces[point.shape.0 as usize].light.is_some()
+    }
+
+    fn vertex(&self, depth: u16, point: SurfacePoint, direction: Vec3) -> Vertex<'a> {
+        let bsdf = self.scene.prepare(&point);
+        let wo = point.shading.to_local(-direction);
+        let normal = if wo.z < 0.0 { -point.shading.n } else { point.shading.n };
+        let sides = if bsdf.lobes().transmission { Sides::Both } else { Sides::Front };
+        let receiver = Receiver { position: point.position, normal, sides };
+        Vertex { depth, point, bsdf, wo, receiver }
+    }
+}

@@ -1,0 +1,72 @@
+//! Where a path goes on, and whether it does.
+
+use etendue_brdf::{Bsdf, Density};
+use etendue_math::Spectrum;
+use etendue_math::glam::Vec3;
+use etendue_sampling::{Decision, Sampler};
+
+use super::{Arrival, Fate, PathTracer, Vertex, View, Walk};
+
+impl PathTracer<'_> {
+    /// Chooses where the path goes on, and whether it does.
+    pub(super) fn scatter<S: Sampler>(
+        &self,
+        vertex: &Vertex<'_>,
+        walk: &mut Walk,
+        points: &S,
+    ) -> Fate {
+        let u_lobe = points.sample_1d(vertex.dimension(Decision::LobeChoice));
+        let u = points.sample_2d(vertex.dimension(Decision::Direction));
+        let Some(sample) = vertex.bsdf.sample(vertex.wo, u_lobe, u) else { return Fate::Ends };
+        walk.throughput = walk.throughput * sample.weight;
+        walk.eta *= sample.eta;
+        walk.arrival = match sample.density {
+            Density::Delta(_) => Arrival::Certain,
+            Density::Continuous(density) => Arrival::Scattered {
+                receiver: vertex.receiver,
+                position: vertex.point.position,
+                density,
+            },
+        };
+        // A pass-through is the one delta direction that goes straight on.
+        if !(matches!(sample.density, Density::Delta(_)) && sample.wi == -vertex.wo) {
+            walk.view = View::Scattered;
+        }
+        let direction = vertex.point.shading.to_world(sample.wi);
+        if self.is_inconsistent(vertex, direction, sample.wi) {
+            return Fate::Ends;
+        }
+        walk.ray = vertex.point.spawn(direction);
+        self.roulette(vertex, walk, points)
+    }
+
+    /// Whether strict normals forbid a direction, given in world and local coordinates: it lies on
+    /// different sides of the surface and of its interpolated normal.
+    pub(super) fn is_inconsistent(&self, vertex: &Vertex<'_>, world: Vec3, local: Vec3) -> bool {
+        self.settings.strict_normals && world.dot(vertex.point.normal) * local.z <= 0.0
+    }
+
+    /// Russian roulette: ends paths that carry little and scales up the others.
+    ///
+    /// ```text
+    /// q = min(max(throughput) η², 0.95)
+    /// ```
+    ///
+    /// η² undoes the compression of radiance inside a medium, which the way out reverses.
+    fn roulette<S: Sampler>(&self, vertex: &Vertex<'_>, walk: &mut Walk, points: &S) -> Fate {
+        let largest = walk.throughput.max_channel();
+        // False for NaN, which goes on to be counted where it reaches the film.
+        if largest <= 0.0 {
+            return Fate::Ends;
+        }
+        if u32::from(vertex.depth) < self.settings.roulette_depth {
+            return Fate::Continues;
+        }
+        let survival = (largest * walk.eta * walk.eta).min(0.95);
+        if points.sample_1d::<f32>(vertex.dimension(Decision::Roulette)) >= survival {
+            return Fate::Ends;
+        }
+        walk.throughput = walk.throughput.scale(1.0 / survival);
+        Fate::Continues
+    }
+}
