@@ -95,10 +95,10 @@ pub struct Camera {
     to_world: Transform,
     near: f32,
     far: f32,
-    /// Camera x and y, at distance 1, of the film's origin.
-    origin: Vec2,
-    /// Their change from pixel to pixel.
-    step: Vec2,
+    /// The point of the film, in pixels, that the optical axis goes through.
+    center: Vec2,
+    /// Camera x and y, at distance 1, from pixel to pixel.
+    step: f32,
     optics: Optics,
 }
 
@@ -154,18 +154,16 @@ impl Camera {
         if width < 1.0 || height < 1.0 {
             return Err(CameraError::Film);
         }
-        let half_height = half_width * height / width;
-        let pixel = 2.0 * half_width / width;
         Ok(Self {
             projection,
             to_world,
             near,
             far,
-            origin: Vec2::new(
-                (half_width * (1.0 - 2.0 * f64::from(offset_x))) as f32,
-                (half_height * (1.0 - 2.0 * f64::from(offset_y))) as f32,
+            center: Vec2::new(
+                (width * (0.5 - f64::from(offset_x))) as f32,
+                (height * (0.5 - f64::from(offset_y))) as f32,
             ),
-            step: Vec2::splat(-pixel as f32),
+            step: (-2.0 * half_width / width) as f32,
             optics,
         })
     }
@@ -178,7 +176,7 @@ impl Camera {
     /// * `lens`: two uniforms in `[0, 1)`; only a thin lens uses them.
     #[inline]
     pub fn ray(&self, film: [f32; 2], lens: [f32; 2]) -> Ray {
-        let at = self.origin + self.step * Vec2::from_array(film);
+        let at = (Vec2::from_array(film) - self.center) * self.step;
         match self.optics {
             Optics::Pinhole => self.ray_along(Vec3::ZERO, at.extend(1.0)),
             Optics::Lens { radius, focus_distance } => {
