@@ -3,7 +3,7 @@
 
 use etendue_brdf::registry::{Albedo, Energy, Reciprocity};
 use etendue_brdf::{Bsdf, BsdfVec, Density, Lobes, Sample};
-use etendue_math::{Real, Vec3, Vector3};
+use etendue_math::{Vec3, Vector3};
 
 use crate::budget::Budget;
 use crate::checks::Context;

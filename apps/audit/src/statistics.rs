@@ -35,8 +35,11 @@ fn lower_series(a: f64, x: f64, log_front: f64) -> f64 {
     sum * Real::exp(log_front)
 }
 
+/// Keeps Lentz's quotients away from a division by 0.
+const TINY: f64 = 1e-300;
+
 fn continued(a: f64, x: f64, log_front: f64) -> f64 {
-    const TINY: f64 = 1e-300;
+    let nonzero = |x: f64| if x.abs() < TINY { TINY } else { x };
     let mut b = x + 1.0 - a;
     let mut c = 1.0 / TINY;
     let mut d = 1.0 / b;
@@ -52,24 +55,20 @@ fn continued(a: f64, x: f64, log_front: f64) -> f64 {
             break;
         }
     }
-    return Real::exp(log_front) * h;
-
-    fn nonzero(x: f64) -> f64 {
-        if x.abs() < TINY { TINY } else { x }
-    }
+    Real::exp(log_front) * h
 }
 
 /// Logarithm of the gamma function for `x > 0`, by Lanczos' approximation (g = 7, 9 terms).
 fn ln_gamma(x: f64) -> f64 {
     const C: [f64; 9] = [
-        0.99999999999980993,
+        0.9999999999998099,
         676.5203681218851,
         -1259.1392167224028,
-        771.32342877765313,
-        -176.61502916214059,
+        771.3234287776531,
+        -176.6150291621406,
         12.507343278686905,
         -0.13857109526572012,
-        9.9843695780195716e-6,
+        9.984369578019572e-6,
         1.5056327351493116e-7,
     ];
     let x = x - 1.0;

@@ -10,8 +10,18 @@ pub const HOSTILE_UNIFORMS: [f64; 8] = [0.0, 1e-30, 1e-7, 0.25, 0.5, 0.75, 0.999
 /// Unit directions whose cosines and azimuths are the edges of what occurs. Every pair of them is
 /// tried, so that equal, opposite, mirrored and doubly grazing pairs are all among them.
 pub fn unit_grid<T: Real>() -> Vec<Vec3<T>> {
-    const COSINES: [f64; 10] =
-        [0.0, 1e-30, 1e-7, 1e-4, 0.01, 0.3, 0.7071067811865476, 0.95, 0.999_999_9, 1.0];
+    const COSINES: [f64; 10] = [
+        0.0,
+        1e-30,
+        1e-7,
+        1e-4,
+        0.01,
+        0.3,
+        core::f64::consts::FRAC_1_SQRT_2,
+        0.95,
+        0.999_999_9,
+        1.0,
+    ];
     const AZIMUTHS: [f64; 5] = [0.0, 0.5 * f64::PI, f64::PI, 1.1, 1.1 + f64::PI];
     COSINES
         .iter()

@@ -12,7 +12,7 @@ pub(super) const CASE: HardCase = HardCase {
     name: "grazing visible normals",
     function: "ggx::sample_visible_normal",
     sound: || sweep(|wo, a, u| ggx::sample_visible_normal::<f32>(wo, a, a, u)),
-    naive: || sweep(cap_from_cosine),
+    naive: || sweep(|wo, a, u| Some(cap_from_cosine(wo, a, u))),
 };
 
 /// Normals in `f32` against `f64` for the same numbers, on the scale of α and the normal's own
@@ -42,11 +42,11 @@ fn sweep(form: fn(Vec3, f32, [f32; 2]) -> Option<Vec3>) -> Outcome {
     worst.within(2e-5, "relative")
 }
 
-fn cap_from_cosine(wo: Vec3, alpha: f32, u: [f32; 2]) -> Option<Vec3> {
+fn cap_from_cosine(wo: Vec3, alpha: f32, u: [f32; 2]) -> Vec3 {
     let v = Vec3::new(alpha * wo.x, alpha * wo.y, wo.z).normalize();
     let z = (1.0 - u[1]) * (1.0 + v.z) - v.z;
     let (sin_phi, cos_phi) = Real::sin_cos(2.0 * f32::PI * u[0]);
     let r = (1.0 - z * z).max(0.0).sqrt();
     let h = Vec3::new(r * cos_phi, r * sin_phi, z) + v;
-    Some(Vec3::new(alpha * h.x, alpha * h.y, h.z.max(0.0)).normalize())
+    Vec3::new(alpha * h.x, alpha * h.y, h.z.max(0.0)).normalize()
 }
