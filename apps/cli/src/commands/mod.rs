@@ -1,0 +1,6 @@
+//! The subcommands.
+
+pub(crate) mod compare;
+pub(crate) mod info;
+pub(crate) mod render;
+mod scene_arguments;

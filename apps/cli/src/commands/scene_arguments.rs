@@ -1,0 +1,52 @@
+//! Arguments of every command that reads a scene.
+
+use std::path::{Path, PathBuf};
+
+use etendue_scene::xml::Leniency;
+use etendue_scene::{LoadOptions, LoadedScene, load_scene};
+
+use crate::failure::Failure;
+
+/// Which scene, and how it is read.
+#[derive(Debug, clap::Args)]
+pub(crate) struct SceneArguments {
+    /// A scene in Mitsuba's XML, or a bare mesh (.obj, .ply).
+    pub(crate) scene: PathBuf,
+    /// Set a parameter of the scene file, as in `-D spp=64`.
+    #[arg(short = 'D', value_name = "NAME=VALUE", value_parser = definition)]
+    definitions: Vec<(String, String)>,
+    /// Report unknown parameters as warnings instead of errors.
+    #[arg(long)]
+    lenient: bool,
+    /// Material of a bare mesh, as in `--bsdf roughconductor:material=Au,alpha=0.2`.
+    #[arg(long, value_name = "TYPE[:KEY=VALUE,…]")]
+    bsdf: Option<String>,
+}
+
+impl SceneArguments {
+    /// What these arguments ask of the loader.
+    pub(crate) fn load_options(&self) -> LoadOptions {
+        LoadOptions {
+            definitions: self.definitions.clone(),
+            leniency: if self.lenient { Leniency::Lenient } else { Leniency::Strict },
+            bsdf: self.bsdf.clone(),
+            ..LoadOptions::default()
+        }
+    }
+}
+
+/// Reads a scene and prints its warnings.
+pub(crate) fn load(path: &Path, options: &LoadOptions) -> Result<LoadedScene, Failure> {
+    let loaded = load_scene(path, options)?;
+    for warning in &loaded.warnings {
+        eprintln!("etendue: warning: {warning}");
+    }
+    Ok(loaded)
+}
+
+fn definition(text: &str) -> Result<(String, String), String> {
+    match text.split_once('=') {
+        Some((name, value)) if !name.is_empty() => Ok((name.to_owned(), value.to_owned())),
+        _ => Err("expected NAME=VALUE".to_owned()),
+    }
+}

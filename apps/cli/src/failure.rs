@@ -1,0 +1,77 @@
+//! How the command fails, and the exit code that says so.
+
+use std::fmt;
+use std::path::Path;
+use std::process::ExitCode;
+
+use etendue_scene::{ErrorKind, SceneError};
+
+/// The exit codes of every étendue command.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(u8)]
+pub(crate) enum Exit {
+    /// Done.
+    Done = 0,
+    /// A defect of the program itself.
+    Internal = 1,
+    /// The command line is wrong.
+    Usage = 2,
+    /// The scene is wrong.
+    Scene = 3,
+    /// A file cannot be read or written.
+    InputOutput = 4,
+    /// More memory or work than is allowed.
+    Resource = 5,
+    /// Finished, but with samples that are not finite, under `--strict`.
+    Unhealthy = 6,
+    /// Interrupted by SIGINT after saving.
+    Interrupted = 130,
+    /// Terminated by SIGTERM after saving.
+    Terminated = 143,
+}
+
+impl From<Exit> for ExitCode {
+    fn from(exit: Exit) -> Self {
+        Self::from(exit as u8)
+    }
+}
+
+/// One clear message and an exit code.
+#[derive(Debug)]
+pub(crate) struct Failure {
+    /// What the process exits with.
+    pub(crate) exit: Exit,
+    message: String,
+}
+
+impl Failure {
+    pub(crate) fn new(exit: Exit, message: impl Into<String>) -> Self {
+        Self { exit, message: message.into() }
+    }
+
+    pub(crate) fn usage(message: impl Into<String>) -> Self {
+        Self::new(Exit::Usage, message)
+    }
+
+    /// A file that cannot be written.
+    pub(crate) fn write(path: &Path, error: impl fmt::Display) -> Self {
+        Self::new(Exit::InputOutput, format!("{}: cannot write: {error}", path.display()))
+    }
+}
+
+impl fmt::Display for Failure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.message)
+    }
+}
+
+impl From<SceneError> for Failure {
+    fn from(error: SceneError) -> Self {
+        let exit = match error.kind {
+            ErrorKind::Scene => Exit::Scene,
+            ErrorKind::Io => Exit::InputOutput,
+            ErrorKind::Resource => Exit::Resource,
+        };
+        Self::new(exit, error.to_string())
+    }
+}

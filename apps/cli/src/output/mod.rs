@@ -1,0 +1,157 @@
+//! Writing pictures: the format by extension, checked before rendering, replaced atomically.
+
+use std::io::{BufWriter, Write};
+use std::path::{Path, PathBuf};
+
+use etendue_renderer::Image;
+use tempfile::NamedTempFile;
+
+use crate::failure::Failure;
+
+mod exr;
+mod hdr;
+mod metadata;
+mod pfm;
+mod png;
+
+pub(crate) use self::exr::Precision;
+pub(crate) use metadata::Metadata;
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Format {
+    Exr,
+    Hdr,
+    Png,
+    Pfm,
+}
+
+impl Format {
+    fn of(path: &Path) -> Result<Self, Failure> {
+        let extension = path.extension().and_then(|e| e.to_str()).map(str::to_ascii_lowercase);
+        match extension.as_deref() {
+            Some("exr") => Ok(Self::Exr),
+            Some("hdr") => Ok(Self::Hdr),
+            Some("png") => Ok(Self::Png),
+            Some("pfm") => Ok(Self::Pfm),
+            _ => Err(Failure::usage(format!(
+                "{}: unknown picture format; name the output *.exr, *.hdr, *.png or *.pfm",
+                path.display()
+            ))),
+        }
+    }
+}
+
+/// How a picture is written where the format leaves a choice.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Encoding {
+    /// Sample type of EXR files.
+    pub(crate) precision: Precision,
+    /// Stops by which 8-bit pictures are brightened.
+    pub(crate) exposure: f32,
+}
+
+/// A destination that has been found writable.
+#[derive(Debug)]
+pub(crate) struct Output {
+    path: PathBuf,
+    format: Format,
+}
+
+impl Output {
+    /// Checks the extension and that a file can be created beside the destination.
+    pub(crate) fn check(path: &Path) -> Result<Self, Failure> {
+        let format = Format::of(path)?;
+        if path.is_dir() {
+            return Err(Failure::write(path, "it is a directory"));
+        }
+        if path.metadata().is_ok_and(|m| m.permissions().readonly()) {
+            return Err(Failure::write(path, "the file is read-only"));
+        }
+        let output = Self { path: path.to_path_buf(), format };
+        output.temporary()?;
+        Ok(output)
+    }
+
+    pub(crate) fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Writes a temporary file in the same directory and renames it: the destination is either
+    /// untouched or complete.
+    pub(crate) fn write(
+        &self,
+        image: &Image,
+        encoding: Encoding,
+        metadata: &Metadata,
+    ) -> Result<(), Failure> {
+        let mut bytes = Vec::new();
+        match self.format {
+            Format::Exr => exr::encode(&mut bytes, image, encoding.precision, metadata),
+            Format::Hdr => hdr::encode(&mut bytes, image),
+            Format::Png => png::encode(&mut bytes, image, encoding.exposure),
+            Format::Pfm => pfm::encode(&mut bytes, image),
+        }
+        .map_err(|error| Failure::write(&self.path, error))?;
+        let mut file = self.temporary()?;
+        let fail = |error| Failure::write(&self.path, error);
+        let mut writer = BufWriter::new(file.as_file_mut());
+        writer.write_all(&bytes).and_then(|()| writer.flush()).map_err(fail)?;
+        drop(writer);
+        file.as_file().sync_all().map_err(fail)?;
+        file.persist(&self.path).map_err(|e| fail(e.error))?;
+        Ok(())
+    }
+
+    fn temporary(&self) -> Result<NamedTempFile, Failure> {
+        let directory = match self.path.parent() {
+            Some(parent) if !parent.as_os_str().is_empty() => parent,
+            _ => Path::new("."),
+        };
+        let mut builder = tempfile::Builder::new();
+        builder.prefix(".etendue-").suffix(".tmp");
+        #[cfg(unix)]
+        {
+            use std::os::unix::fs::PermissionsExt;
+            // Temporary files are private by default; a picture is an ordinary file. The umask still applies.
+            builder.permissions(std::fs::Permissions::from_mode(0o666));
+        }
+        builder.tempfile_in(directory).map_err(|error| Failure::write(&self.path, error))
+    }
+}
+
+/// What an encoder may fail with.
+type EncodeResult = Result<(), Box<dyn std::error::Error>>;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn written(name: &str) -> Vec<u8> {
+        let directory = tempfile::tempdir().expect("a temporary directory");
+        let path = directory.path().join(name);
+        let output = Output::check(&path).expect("writable");
+        let encoding = Encoding { precision: Precision::Float, exposure: 0.0 };
+        let pixels = vec![[0.25, 0.5, 1.0].into(), [0.0, 2.0, 1e-3].into()];
+        let image = Image::from_pixels([2, 1], pixels).expect("two pixels");
+        output.write(&image, encoding, &Metadata::default()).expect("written");
+        let left: Vec<_> = std::fs::read_dir(directory.path()).expect("listing").collect();
+        assert_eq!(left.len(), 1, "no temporary file stays behind");
+        std::fs::read(path).expect("readable")
+    }
+
+    #[test]
+    fn every_format_starts_with_its_signature() {
+        assert_eq!(written("a.exr")[..4], [0x76, 0x2f, 0x31, 0x01]);
+        assert_eq!(written("a.png")[..4], *b"\x89PNG");
+        assert_eq!(written("a.hdr")[..10], *b"#?RADIANCE");
+        assert_eq!(written("a.pfm")[..3], *b"PF\n");
+    }
+
+    #[test]
+    fn unknown_extensions_and_missing_directories_are_refused_before_rendering() {
+        let usage = Output::check(Path::new("a.gif")).expect_err("unknown format");
+        assert_eq!(usage.exit, crate::failure::Exit::Usage);
+        let missing = Output::check(Path::new("no/such/directory/a.exr")).expect_err("no directory");
+        assert_eq!(missing.exit, crate::failure::Exit::InputOutput);
+    }
+}
