@@ -33,7 +33,7 @@ fn unlimited_paths_sum_the_series_with_and_without_roulette() {
         for strategy in [Strategy::Mis, Strategy::BsdfOnly] {
             let mut settings = settings(None, strategy);
             settings.path.roulette_depth = roulette_depth;
-            estimate(&scene, settings, 20_000).assert_is(1.0 / (1.0 - ALBEDO));
+            estimate(&scene, settings, 4000).assert_is(1.0 / (1.0 - ALBEDO));
         }
     }
 }

@@ -149,7 +149,8 @@ impl LightSampler {
     #[inline]
     fn emitter_of(&self, light: LightId, primitive: u32) -> Option<u32> {
         let light = light.0 as usize;
-        let [first, end] = [light, light + 1].map(|l| self.first_primitive.get(l).copied());
+        let [first, end] =
+            [light, light.saturating_add(1)].map(|l| self.first_primitive.get(l).copied());
         let place = first?.checked_add(primitive)?;
         if place >= end? {
             return None;
@@ -191,6 +192,72 @@ impl From<&LightBounds> for Cluster {
             cos_emission: light.cos_theta_e,
             faces,
             power: light.power,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use etendue_math::glam::Vec3;
+    use etendue_scene::geometry::Aabb;
+
+    const RECEIVER: Receiver =
+        Receiver { position: Vec3::ZERO, normal: Vec3::Z, sides: Sides::Front };
+
+    fn lamp(light: u32, primitive: u32, position: Vec3, power: f32) -> (LightId, u32, LightBounds) {
+        let bounds = LightBounds {
+            bounds: Aabb::from_points([position]),
+            power,
+            axis: Vec3::Z,
+            cos_theta_o: -1.0,
+            cos_theta_e: 0.0,
+            sides: EmissionSides::One,
+        };
+        (LightId(light), primitive, bounds)
+    }
+
+    #[test]
+    fn finite_and_infinite_lights_are_chosen_with_the_probabilities_asked_for() {
+        let finite = [
+            lamp(1, 0, Vec3::new(1.0, 0.0, 1.0), 2.0),
+            lamp(1, 2, Vec3::new(0.0, 3.0, 1.0), 1.0),
+            lamp(4, 0, Vec3::new(0.0, 0.0, 2.0), 5.0),
+        ];
+        let infinite = [(LightId(0), 3.0), (LightId(3), 1.0)];
+        let lights = LightSampler::from_lights(&finite, &infinite);
+        assert_eq!(lights.count(), 5);
+        let all = [(1, 0), (1, 2), (4, 0), (0, 0), (3, 0)];
+        let sum: f32 = all.iter().map(|&(l, p)| lights.probability(&RECEIVER, LightId(l), p)).sum();
+        // Five roundings.
+        assert!((sum - 1.0).abs() < 1e-6, "{sum}");
+        // Two of three shares, three quarters of them.
+        let sky = lights.probability(&RECEIVER, LightId(0), 0);
+        assert!((sky - 0.5).abs() < 1e-6, "{sky}");
+        for i in 0..1000 {
+            let chosen = lights.choose(&RECEIVER, i as f32 / 1000.0).expect("all are seen");
+            let asked = lights.probability(&RECEIVER, chosen.light, chosen.primitive);
+            assert_eq!(chosen.probability, asked);
+        }
+    }
+
+    #[test]
+    fn unknown_lights_and_primitives_have_no_probability() {
+        let lights = LightSampler::from_lights(&[lamp(1, 1, Vec3::Z, 1.0)], &[]);
+        assert_eq!(lights.probability(&RECEIVER, LightId(1), 1), 1.0);
+        for (light, primitive) in [(1, 0), (1, 2), (0, 0), (7, 0), (u32::MAX, u32::MAX)] {
+            assert_eq!(lights.probability(&RECEIVER, LightId(light), primitive), 0.0);
+        }
+    }
+
+    #[test]
+    fn without_lights_or_with_black_ones_nothing_is_chosen() {
+        let none = LightSampler::from_lights(&[], &[]);
+        let black =
+            LightSampler::from_lights(&[lamp(0, 0, Vec3::Z, 0.0)], &[(LightId(1), f32::NAN)]);
+        for lights in [none, black] {
+            assert_eq!(lights.count(), 0);
+            assert_eq!(lights.choose(&RECEIVER, 0.3), None);
         }
     }
 }
