@@ -20,7 +20,7 @@ pub struct Budget {
 impl Budget {
     /// For `cargo test`: every check on every case, in seconds on a debug-like build.
     pub const TEST: Self =
-        Self { name: "test", viewers: 2, samples: 1 << 12, pilot: 1 << 10, pairs: 200, draws: 200 };
+        Self { name: "test", viewers: 1, samples: 1 << 11, pilot: 1 << 9, pairs: 200, draws: 200 };
     /// The default of the command: well under a minute on two cores.
     pub const SMOKE: Self = Self {
         name: "smoke",

@@ -165,7 +165,7 @@ mod tests {
             let (a, b) = ((z - 0.3) / 2e-4, (phi - 2.0) / 2e-4);
             Real::exp(-0.5 * (a * a + b * b)) / (2.0 * f64::PI * 4e-8)
         };
-        // A unit Gaussian cut at 2.5 σ by the sampler but not by the integral: tolerance 1e-6.
-        assert!((partition.integrate(1e-6, inside).value - 1.0).abs() < 1e-5);
+        // Cells are fine up to the margin, 3.75 σ, beyond which 1.8e-4 of the mass lies per axis.
+        assert!((partition.integrate(1e-6, inside).value - 1.0).abs() < 4e-4);
     }
 }

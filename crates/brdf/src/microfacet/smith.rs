@@ -120,7 +120,8 @@ impl<T: Real> Microfacets<T> {
                 o * area_i + i * (area_o - o)
             }
         };
-        if area > T::ZERO { T::ONE / (T::lit(4.0) * area) } else { T::ZERO }
+        // Bounded: for directions far from unit length the product of areas is subnormal.
+        if area > T::ZERO { (T::ONE / (T::lit(4.0) * area)).min(T::MAX) } else { T::ZERO }
     }
 
     /// `G2(wo, wi) / G1(wo)` with the exact G1: the weight of a visible normal drawn for `wo`.
