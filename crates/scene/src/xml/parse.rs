@@ -396,9 +396,10 @@ impl Parser {
 }
 
 impl Source<'_> {
-    /// A parameter's name in today's spelling.
+    /// A parameter's name in today's spelling. Files of today's versions have old names too, left
+    /// from when they were converted.
     fn property_name(&self, name: &str) -> String {
-        if self.is_before_version_2() { snake_case(name) } else { name.to_string() }
+        snake_case(name)
     }
 
     fn is_before_version_2(&self) -> bool {
