@@ -6,7 +6,7 @@ pub(super) const FIRST_WAVELENGTH: f64 = 360.0;
 pub(super) const LAST_WAVELENGTH: f64 = 830.0;
 
 /// The integral of the colour matching function y over wavelength.
-pub(super) const Y_INTEGRAL: f64 = 106.7502593994140625;
+pub(super) const Y_INTEGRAL: f64 = 106.75025939941406;
 
 /// The factor that gives [`D65`] unit luminance relative to a constant spectrum.
 pub(super) const D65_SCALE: f64 = 1.0 / 98.99741751876255;

@@ -1,9 +1,9 @@
 //! A mesh without a scene.
 
-use std::format;
+use alloc::format;
+use alloc::string::String;
+use alloc::vec::Vec;
 use std::path::Path;
-use std::string::String;
-use std::vec::Vec;
 
 use super::shape::{Surface, add_surface, shaded};
 use super::{Context, LoadOptions, LoadedScene, bsdf, scene};

@@ -1,9 +1,9 @@
 //! What is gathered while a description is translated.
 
-use std::collections::BTreeMap;
-use std::format;
+use alloc::collections::BTreeMap;
+use alloc::format;
+use alloc::vec::Vec;
 use std::path::PathBuf;
-use std::vec::Vec;
 
 use super::LoadOptions;
 use super::reader::PluginReader;
@@ -65,7 +65,7 @@ impl<'a> Context<'a> {
     }
 
     /// Notes something suspicious.
-    pub(super) fn warn(&mut self, location: Location, message: impl Into<std::string::String>) {
+    pub(super) fn warn(&mut self, location: Location, message: impl Into<alloc::string::String>) {
         self.warnings.push(Warning::new(location, message));
     }
 

@@ -1,6 +1,6 @@
 //! Light sources.
 
-use std::format;
+use alloc::format;
 
 use etendue_math::glam::{DVec3, Vec3};
 

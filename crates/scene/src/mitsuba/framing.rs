@@ -1,6 +1,6 @@
 //! A camera for scenes that come without one.
 
-use std::format;
+use alloc::format;
 
 use etendue_math::glam::DVec3;
 use etendue_math::{Real, Vector3};

@@ -1,6 +1,6 @@
 //! Images as textures and environment maps.
 
-use std::format;
+use alloc::format;
 
 use super::Context;
 use super::reader::PluginReader;

@@ -1,6 +1,6 @@
 //! Integrators, all of which are our path tracer.
 
-use std::format;
+use alloc::format;
 
 use super::reader::PluginReader;
 use super::{Context, Family};

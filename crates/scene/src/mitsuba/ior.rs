@@ -1,7 +1,7 @@
 //! Indices of refraction, by number or by name.
 
-use std::format;
-use std::string::{String, ToString};
+use alloc::format;
+use alloc::string::{String, ToString};
 
 use etendue_brdf::Ior;
 

@@ -1,9 +1,9 @@
 //! The entry point of loading.
 
-use std::format;
+use alloc::format;
+use alloc::string::String;
+use alloc::vec::Vec;
 use std::path::{Path, PathBuf};
-use std::string::String;
-use std::vec::Vec;
 
 use super::{Context, bare, scene};
 use crate::film::Crop;

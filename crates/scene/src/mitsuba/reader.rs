@@ -1,9 +1,9 @@
 //! Reading the parameters of one plugin, and noticing those that nobody reads.
 
-use std::format;
-use std::string::String;
-use std::vec;
-use std::vec::Vec;
+use alloc::format;
+use alloc::string::String;
+use alloc::vec;
+use alloc::vec::Vec;
 
 use etendue_math::glam::{DMat4, DVec3};
 

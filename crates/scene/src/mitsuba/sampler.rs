@@ -1,6 +1,6 @@
 //! Samplers.
 
-use std::format;
+use alloc::format;
 
 use super::reader::PluginReader;
 use super::{Context, Family};

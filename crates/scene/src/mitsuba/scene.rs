@@ -1,6 +1,6 @@
 //! The scene as a whole.
 
-use std::format;
+use alloc::format;
 
 use super::reader::PluginReader;
 use super::sensor::Sensor;

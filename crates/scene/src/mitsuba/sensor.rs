@@ -1,6 +1,6 @@
 //! Cameras.
 
-use std::format;
+use alloc::format;
 
 use super::reader::PluginReader;
 use super::{Context, Family, film, sampler};

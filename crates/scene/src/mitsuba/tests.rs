@@ -1,8 +1,8 @@
 //! Tests of loading as a whole.
 
-use std::format;
+use alloc::format;
+use alloc::string::{String, ToString};
 use std::path::Path;
-use std::string::{String, ToString};
 
 use etendue_math::glam::Vec3;
 

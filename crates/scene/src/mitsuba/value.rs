@@ -1,6 +1,6 @@
 //! Colours and numbers that may vary over a surface.
 
-use std::format;
+use alloc::format;
 
 use etendue_math::Rgb;
 

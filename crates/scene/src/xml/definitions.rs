@@ -1,8 +1,8 @@
 //! `$name` in attribute values.
 
-use std::format;
-use std::string::String;
-use std::vec::Vec;
+use alloc::format;
+use alloc::string::String;
+use alloc::vec::Vec;
 
 /// One name that `$name` stands for.
 #[derive(Clone, Debug)]
@@ -85,7 +85,7 @@ impl Definitions {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::vec;
+    use alloc::vec;
 
     fn given(definitions: &[(&str, &str)]) -> Definitions {
         let owned: Vec<_> = definitions.iter().map(|&(n, v)| (n.into(), v.into())).collect();

@@ -1,9 +1,9 @@
 //! What a scene file says, before it means anything.
 
-use std::collections::BTreeMap;
+use alloc::collections::BTreeMap;
+use alloc::string::String;
+use alloc::vec::Vec;
 use std::path::PathBuf;
-use std::string::String;
-use std::vec::Vec;
 
 use etendue_math::glam::{DMat4, DVec3};
 

@@ -1,15 +1,15 @@
 //! Names of older scene files in today's spelling.
 
-use std::format;
-use std::string::String;
-use std::vec::Vec;
+use alloc::format;
+use alloc::string::String;
+use alloc::vec::Vec;
 
 use etendue_math::glam::{DMat4, DVec3};
 
 use super::description::{Node, Property, Value};
 use crate::SceneError;
 
-/// `camelCase` to `snake_case`: an underscore where a capital follows a small letter, and the whole
+/// `camelCase` to `snake_case`, in files of every version, since converted ones keep old names: an underscore where a capital follows a small letter, and the whole
 /// run of capitals in small letters, so `intIOR` is `int_ior`. Names with a leading capital run are
 /// left alone, as Mitsuba leaves them.
 pub(crate) fn snake_case(name: &str) -> String {

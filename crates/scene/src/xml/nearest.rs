@@ -1,6 +1,6 @@
 //! Suggestions for misspelt names.
 
-use std::vec::Vec;
+use alloc::vec::Vec;
 
 /// The candidate nearest to `name`, when it is near enough to be what was meant: at most one edit
 /// for every three characters, letter case aside.

@@ -1,6 +1,6 @@
 //! Numbers as scene files write them.
 
-use std::vec::Vec;
+use alloc::vec::Vec;
 
 /// A finite number; surrounding blanks are allowed, anything else is not.
 pub(crate) fn parse_float(text: &str) -> Option<f64> {
@@ -25,7 +25,7 @@ pub(crate) fn parse_list(text: &str) -> Result<Vec<f64>, &str> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::vec;
+    use alloc::vec;
 
     #[test]
     fn only_finite_numbers_are_numbers() {

@@ -1,11 +1,11 @@
 //! From the text of a scene file to its description.
 
-use std::borrow::ToOwned;
-use std::collections::BTreeMap;
-use std::format;
+use alloc::borrow::ToOwned;
+use alloc::collections::BTreeMap;
+use alloc::format;
+use alloc::string::{String, ToString};
+use alloc::vec::Vec;
 use std::path::{Path, PathBuf};
-use std::string::{String, ToString};
-use std::vec::Vec;
 
 use roxmltree::Node as Element;
 
@@ -199,7 +199,7 @@ impl Parser {
         if let Some(id) = &id {
             self.name(id, node, &location)?;
         }
-        let name = source.property_name(&get("name").unwrap_or_default());
+        let name = snake_case(&get("name").unwrap_or_default());
         self.nodes.push(Node {
             kind,
             plugin,
@@ -283,7 +283,7 @@ impl Parser {
             "ref" => {
                 source.check_attributes(element, &["id", "name"])?;
                 source.check_empty(element)?;
-                let name = source.property_name(required("name").unwrap_or_default());
+                let name = snake_case(required("name").unwrap_or_default());
                 self.references.push(Reference {
                     from: parent,
                     to: required("id")?.into(),
@@ -306,7 +306,7 @@ impl Parser {
                 source.check_attributes(element, &["filename", "name"])?;
                 source.check_empty(element)?;
                 let path = source.search.resolve(required("filename")?);
-                let name = source.property_name(required("name").unwrap_or_default());
+                let name = snake_case(required("name").unwrap_or_default());
                 self.include(source, &path, parent, (&name, location), depth)?;
             }
             // Stands for the absence of a plugin.
@@ -319,11 +319,11 @@ impl Parser {
                     operations.push((child, self.attributes(source, child)?));
                 }
                 let value = property::transform(source, &operations)?;
-                self.set(parent, Property { name: source.property_name(&name), value, location })?;
+                self.set(parent, Property { name: snake_case(&name), value, location })?;
             }
             _ => {
                 let (name, value) = property::value(source, element, &attributes)?;
-                self.set(parent, Property { name: source.property_name(name), value, location })?;
+                self.set(parent, Property { name: snake_case(name), value, location })?;
             }
         }
         Ok(())
@@ -396,12 +396,6 @@ impl Parser {
 }
 
 impl Source<'_> {
-    /// A parameter's name in today's spelling. Files of today's versions have old names too, left
-    /// from when they were converted.
-    fn property_name(&self, name: &str) -> String {
-        snake_case(name)
-    }
-
     fn is_before_version_2(&self) -> bool {
         self.version[0] < 2
     }

@@ -1,8 +1,8 @@
 //! Parameters: elements that hold a value.
 
-use std::format;
-use std::string::{String, ToString};
-use std::vec::Vec;
+use alloc::format;
+use alloc::string::{String, ToString};
+use alloc::vec::Vec;
 
 use etendue_math::glam::{DMat4, DVec3};
 use roxmltree::Node as Element;

@@ -1,9 +1,9 @@
 //! References from plugin to plugin.
 
-use std::format;
-use std::string::String;
-use std::vec;
-use std::vec::Vec;
+use alloc::format;
+use alloc::string::String;
+use alloc::vec;
+use alloc::vec::Vec;
 
 use super::description::{Child, Node, NodeId};
 use super::nearest::nearest;

@@ -1,7 +1,7 @@
 //! Where the files a scene names are looked for.
 
+use alloc::vec::Vec;
 use std::path::{Path, PathBuf};
-use std::vec::Vec;
 
 /// Folders in the order in which they are searched.
 ///

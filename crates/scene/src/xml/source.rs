@@ -1,10 +1,10 @@
 //! The text of one scene file, and places in it.
 
-use std::borrow::ToOwned;
-use std::format;
+use alloc::borrow::ToOwned;
+use alloc::format;
+use alloc::string::{String, ToString};
+use alloc::vec::Vec;
 use std::path::{Path, PathBuf};
-use std::string::{String, ToString};
-use std::vec::Vec;
 
 use roxmltree::{Document, Node as Element, ParsingOptions};
 

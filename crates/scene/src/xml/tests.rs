@@ -1,9 +1,9 @@
 //! Tests of the description as a whole.
 
-use std::format;
+use alloc::format;
+use alloc::string::{String, ToString};
+use alloc::vec::Vec;
 use std::path::Path;
-use std::string::{String, ToString};
-use std::vec::Vec;
 
 use etendue_math::glam::{DMat4, DVec3};
 

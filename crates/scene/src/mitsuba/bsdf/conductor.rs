@@ -1,8 +1,8 @@
 //! `conductor` and `roughconductor`.
 
-use std::format;
-use std::string::String;
-use std::vec::Vec;
+use alloc::format;
+use alloc::string::String;
+use alloc::vec::Vec;
 
 use super::super::reader::PluginReader;
 use super::super::value::{Role, texture_or};

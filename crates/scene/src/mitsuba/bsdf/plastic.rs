@@ -1,6 +1,6 @@
 //! `plastic` and `roughplastic`.
 
-use std::format;
+use alloc::format;
 
 use etendue_brdf::{Alpha, InternalReflectance, InternalScattering};
 

@@ -1,6 +1,6 @@
 //! Parameters of microfacet models.
 
-use std::format;
+use alloc::format;
 
 use etendue_brdf::{BeckmannLambda, Distribution, Masking};
 

@@ -1,7 +1,7 @@
 //! `shapegroup` and `instance`.
 
-use std::format;
-use std::vec::Vec;
+use alloc::format;
+use alloc::vec::Vec;
 
 use super::super::Context;
 use super::super::reader::PluginReader;

@@ -1,8 +1,8 @@
 //! Meshes from files, and the cube.
 
-use std::format;
+use alloc::format;
+use alloc::string::String;
 use std::path::PathBuf;
-use std::string::String;
 
 use super::super::Context;
 use super::super::reader::PluginReader;
@@ -97,7 +97,7 @@ pub(in super::super) fn shaded(
     is_flat: bool,
 ) -> Result<TriangleMesh, MeshError> {
     if is_flat {
-        mesh.with_normals(std::vec::Vec::new())
+        mesh.with_normals(alloc::vec::Vec::new())
     } else if mesh.normals().is_empty() {
         let normals = smooth_normals(&mesh);
         mesh.with_normals(normals)

@@ -7,9 +7,9 @@ mod surface;
 
 pub(super) use mesh::shaded;
 
-use std::format;
-use std::string::String;
-use std::vec::Vec;
+use alloc::format;
+use alloc::string::String;
+use alloc::vec::Vec;
 
 use super::{Context, Family};
 use crate::SceneError;

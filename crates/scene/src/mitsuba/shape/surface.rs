@@ -1,7 +1,7 @@
 //! What all shapes have in common: material and emission.
 
-use std::format;
-use std::string::String;
+use alloc::format;
+use alloc::string::String;
 
 use super::super::reader::PluginReader;
 use super::super::{Context, bsdf, emitter};
