@@ -20,8 +20,8 @@ pub struct Film {
     pub crop: Crop,
     /// The weight of a sample by its distance from a pixel's centre.
     pub filter: ReconstructionFilter,
-    /// Whether samples are also taken outside the crop, as far as the filter reaches, so that
-    /// pictures rendered in parts fit together.
+    /// Whether samples are also taken outside the film, as far as the filter reaches. Crops fit
+    /// together either way.
     pub sample_border: bool,
 }
 

@@ -14,7 +14,8 @@ use super::filter_table::{FilterTable, Span};
 /// Each pixel owns its samples: no sample is splatted to a neighbour, so that pixels may be
 /// computed in any order, on any thread or machine, with the same bits. Where the film ends and
 /// `sample_border` is off, both integrals and the samples are restricted to the film, which is
-/// what normalised splatting of samples inside the film converges to.
+/// what normalised splatting of samples inside the film converges to. Where a crop ends nothing
+/// changes: its pixels are those of the whole picture.
 ///
 /// # Precision
 /// The filter is a staircase of 256 cells per axis; a box filter of radius ½ is exact.
@@ -60,14 +61,8 @@ impl FilterSampler {
             ReconstructionFilter::Box { radius: 0.5 } => Shape::Pixel,
             ref filter => FilterTable::new(filter).map_or(Shape::Pixel, Shape::Table),
         };
-        let crop = &film.crop;
-        let domain = [0, 1].map(|axis| {
-            if film.sample_border {
-                [f32::NEG_INFINITY, f32::INFINITY]
-            } else {
-                let low = crop.offset[axis] as f32;
-                [low, low + crop.size[axis] as f32]
-            }
+        let domain = film.size.map(|end| {
+            if film.sample_border { [f32::NEG_INFINITY, f32::INFINITY] } else { [0.0, end as f32] }
         });
         Self { shape, domain }
     }
@@ -123,8 +118,7 @@ mod tests {
     ];
 
     fn film(filter: ReconstructionFilter) -> Film {
-        let crop = Crop { offset: [2, 0], size: [8, 10] };
-        Film { crop, filter, ..Film::new([10, 10]) }
+        Film { filter, ..Film::new([8, 10]) }
     }
 
     /// Σ w x^power / n over a fine grid of uniforms, x relative to the pixel's centre.
@@ -158,7 +152,7 @@ mod tests {
     fn moments_are_those_of_the_filter_inside_and_at_the_border_of_the_film() {
         for filter in FILTERS {
             let sampler = FilterSampler::new(&film(filter));
-            for (column, low) in [(6, f32::NEG_INFINITY), (2, -0.5), (3, -1.5)] {
+            for (column, low) in [(4, f32::NEG_INFINITY), (0, -0.5), (1, -1.5)] {
                 let pixel = sampler.pixel([column, 5]);
                 let total = moment(pixel, 0);
                 for power in [1, 2] {
@@ -176,7 +170,7 @@ mod tests {
     fn weights_average_to_one() {
         for filter in FILTERS {
             let sampler = FilterSampler::new(&film(filter));
-            for pixel in [[6, 5], [2, 0], [9, 9]] {
+            for pixel in [[4, 5], [0, 0], [7, 9]] {
                 const N: u32 = 256;
                 let pixel = sampler.pixel(pixel);
                 let at = |i: u32| (i as f32 + 0.5) / N as f32;
@@ -194,12 +188,22 @@ mod tests {
         for sample_border in [false, true] {
             let film = Film { sample_border, ..film(ReconstructionFilter::default()) };
             let sampler = FilterSampler::new(&film);
-            let pixel = sampler.pixel([2, 0]);
+            let pixel = sampler.pixel([0, 0]);
             let outside = (0..1000).any(|i| {
                 let [x, y] = pixel.sample([i as f32 / 1000.0, 0.5]).position;
-                !(2.0..=10.0).contains(&x) || !(0.0..=10.0).contains(&y)
+                !(0.0..=8.0).contains(&x) || !(0.0..=10.0).contains(&y)
             });
             assert_eq!(outside, sample_border);
+        }
+    }
+
+    #[test]
+    fn a_crop_does_not_change_where_its_pixels_look() {
+        let whole = film(ReconstructionFilter::default());
+        let cropped = Film { crop: Crop { offset: [3, 5], size: [1, 1] }, ..whole };
+        let [whole, cropped] = [whole, cropped].map(|film| FilterSampler::new(&film));
+        for u in [[0.0, 0.0], [0.01, 0.99], [0.5, 0.25]] {
+            assert_eq!(cropped.pixel([3, 5]).sample(u), whole.pixel([3, 5]).sample(u));
         }
     }
 
