@@ -1,0 +1,612 @@
+//! Input that is wrong, and input that only looks wrong: one message with its place, the exit code
+//! that the documentation promises, and nothing left behind.
+
+mod common;
+
+use std::io::Cursor;
+
+use common::{Folder, Outcome, scene};
+
+/// Files, a command line, and what must come of them.
+struct Case {
+    what: &'static str,
+    files: Vec<(&'static str, Vec<u8>)>,
+    arguments: Vec<&'static str>,
+    exit: i32,
+    /// What the error, or else the warnings, must contain.
+    says: &'static [&'static str],
+}
+
+/// Renders `scene.xml`, which the case adds, at one sample per pixel.
+const RENDER: [&str; 6] = ["render", "scene.xml", "-o", "out.pfm", "--quiet", "--spp=1"];
+/// The same of a bare mesh.
+const RENDER_OBJ: [&str; 7] =
+    ["render", "mesh.obj", "-o", "out.pfm", "--quiet", "--spp=1", "--size=4x4"];
+const RENDER_PLY: [&str; 7] =
+    ["render", "mesh.ply", "-o", "out.pfm", "--quiet", "--spp=1", "--size=4x4"];
+
+impl Case {
+    fn new(what: &'static str, exit: i32, says: &'static [&'static str]) -> Self {
+        Self { what, files: Vec::new(), arguments: RENDER.to_vec(), exit, says }
+    }
+
+    /// A scene whose content after the camera, from line 3 on, is `body`.
+    fn scene(what: &'static str, exit: i32, says: &'static [&'static str], body: &str) -> Self {
+        Self::new(what, exit, says).file("scene.xml", scene(body))
+    }
+
+    fn obj(what: &'static str, exit: i32, says: &'static [&'static str], text: &str) -> Self {
+        let case = Self::new(what, exit, says).file("mesh.obj", text);
+        Self { arguments: RENDER_OBJ.to_vec(), ..case }
+    }
+
+    fn ply(
+        what: &'static str,
+        exit: i32,
+        says: &'static [&'static str],
+        bytes: impl Into<Vec<u8>>,
+    ) -> Self {
+        let case = Self::new(what, exit, says).file("mesh.ply", bytes);
+        Self { arguments: RENDER_PLY.to_vec(), ..case }
+    }
+
+    fn file(mut self, name: &'static str, content: impl Into<Vec<u8>>) -> Self {
+        self.files.push((name, content.into()));
+        self
+    }
+
+    /// More of the command line.
+    fn with(mut self, arguments: &[&'static str]) -> Self {
+        self.arguments.extend(arguments);
+        self
+    }
+
+    /// What is wrong with what the command did; `None` if nothing.
+    fn complaint(&self) -> Option<String> {
+        let folder = Folder::new();
+        let mut expected: Vec<String> = Vec::new();
+        for (name, content) in &self.files {
+            folder.write(name, content);
+            expected.push((*name).to_owned());
+        }
+        let outcome = folder.run(&self.arguments);
+        if self.exit == 0 {
+            expected.push("out.pfm".to_owned());
+        }
+        expected.sort();
+        let complaint = if outcome.exit != Some(self.exit) {
+            format!("exit {:?} instead of {}", outcome.exit, self.exit)
+        } else if let Some(complaint) = messages(&outcome, self.exit, self.says) {
+            complaint
+        } else if folder.names() != expected {
+            format!("the folder holds {:?} instead of {expected:?}", folder.names())
+        } else {
+            return None;
+        };
+        Some(format!("{}: {complaint}\n{}", self.what, outcome.stderr))
+    }
+}
+
+/// What is wrong with the messages of a run; `None` if nothing.
+fn messages(outcome: &Outcome, exit: i32, says: &[&str]) -> Option<String> {
+    if outcome.stderr.contains("panicked") {
+        return Some("it panics".to_owned());
+    }
+    let errors = outcome.errors();
+    let expected = usize::from(exit != 0);
+    if errors.len() != expected {
+        return Some(format!("{} errors instead of {expected}", errors.len()));
+    }
+    let text = if exit == 0 { outcome.warnings().join("\n") } else { errors.join("\n") };
+    if says.is_empty() && exit == 0 && !text.is_empty() {
+        return Some("it warns".to_owned());
+    }
+    let missing = says.iter().find(|fragment| !text.contains(**fragment))?;
+    Some(format!("{missing:?} is not said"))
+}
+
+fn check(cases: impl IntoIterator<Item = Case>) {
+    let complaints: Vec<String> = cases.into_iter().filter_map(|c| c.complaint()).collect();
+    assert!(complaints.is_empty(), "\n{}", complaints.join("\n"));
+}
+
+const LIGHT: &str = r#"<emitter type="constant"/>"#;
+
+/// A light on line 3, a ball with the given content from line 4 on.
+fn ball(content: &str) -> String {
+    format!("{LIGHT}\n<shape type=\"sphere\">\n{content}\n</shape>")
+}
+
+/// A ball whose bsdf, on line 5, is `bsdf`.
+fn material(what: &'static str, exit: i32, says: &'static [&'static str], bsdf: &str) -> Case {
+    Case::scene(what, exit, says, &ball(bsdf))
+}
+
+#[test]
+fn scene_files_that_cannot_be_read_are_input_errors() {
+    check([Case::new("missing scene", 4, &["scene.xml", "cannot read"])]);
+    let folder = Folder::new();
+    std::fs::create_dir(folder.path("scene.xml")).expect("a writable folder");
+    let outcome = folder.run(&RENDER);
+    assert_eq!(outcome.exit, Some(4), "{}", outcome.stderr);
+    assert_eq!(messages(&outcome, 4, &["scene.xml"]), None, "{}", outcome.stderr);
+    assert_eq!(folder.names(), ["scene.xml"]);
+}
+
+#[test]
+fn malformed_scene_files_are_refused_with_line_and_column() {
+    let whole = |what, says, text: &str| Case::new(what, 3, says).file("scene.xml", text);
+    check(
+        [
+            whole("empty file", &["scene.xml"], ""),
+            whole("not XML", &["scene.xml:1:1"], "v 0 0 0\n"),
+            whole(
+                "unclosed element",
+                &["scene.xml:3:", "not well-formed"],
+                "<scene version=\"3.0.0\">\n  <shape type=\"sphere\">\n</scene>\n",
+            ),
+            whole("another root", &["scene.xml:2:1", "<scene>"], "\n<svg version=\"3.0.0\"/>"),
+            whole("no version", &["scene.xml:1:1", "version"], "<scene/>"),
+            whole("not UTF-8", &["scene.xml", "UTF-16"], "\u{feff}"),
+            Case::scene(
+                "unknown element",
+                3,
+                &["scene.xml:3:3", "<shap>", "did you mean <shape>?"],
+                "  <shap type=\"sphere\"/>",
+            ),
+            Case::scene(
+                "unknown attribute",
+                3,
+                &["scene.xml:3:", "“typ”"],
+                "<shape type=\"sphere\" typ=\"x\"/>",
+            ),
+            Case::scene(
+                "nameless parameter",
+                3,
+                &["scene.xml:5:1", "“name”"],
+                &ball("<float value=\"1\"/>"),
+            ),
+            Case::scene(
+                "word for a number",
+                3,
+                &["scene.xml:5:1", "“one”"],
+                &ball("<float name=\"radius\" value=\"one\"/>"),
+            ),
+        ]
+        .map(|mut case| {
+            // The one case that is not text.
+            if case.what == "not UTF-8" {
+                case.files[0].1 = vec![0xff, 0xfe, b'<', 0];
+            }
+            case
+        }),
+    );
+}
+
+#[test]
+fn what_is_not_supported_is_named_beside_what_is() {
+    check([
+        Case::scene(
+            "unknown shape",
+            3,
+            &["scene.xml:3:1", "“torus”", "sphere", "rectangle"],
+            "<shape type=\"torus\"/>",
+        ),
+        Case::scene(
+            "unknown emitter",
+            3,
+            &["scene.xml:3:1", "“sunsky”", "envmap"],
+            "<emitter type=\"sunsky\"/>",
+        ),
+        material(
+            "unknown bsdf",
+            3,
+            &["scene.xml:5:1", "“velvet”", "roughconductor"],
+            "<bsdf type=\"velvet\"/>",
+        ),
+        material(
+            "misspelt bsdf",
+            3,
+            &["scene.xml:5:1", "did you mean “diffuse”?"],
+            "<bsdf type=\"difuse\"/>",
+        ),
+        material(
+            "unknown parameter",
+            3,
+            &["scene.xml:6:1", "“reflectence”", "did you mean “reflectance”?"],
+            "<bsdf type=\"diffuse\">\n<float name=\"reflectence\" value=\"0.5\"/></bsdf>",
+        ),
+        material(
+            "unknown parameter, lenient",
+            0,
+            &["scene.xml:6:1", "“reflectence”"],
+            "<bsdf type=\"diffuse\">\n<float name=\"reflectence\" value=\"0.5\"/></bsdf>",
+        )
+        .with(&["--lenient"]),
+        material(
+            "unknown metal",
+            3,
+            &["scene.xml:5:", "“Unobtainium”", "Au"],
+            "<bsdf type=\"conductor\"><string name=\"material\" value=\"Unobtainium\"/></bsdf>",
+        ),
+    ]);
+}
+
+#[test]
+fn names_that_do_not_resolve_are_refused_where_they_stand() {
+    let cyclic = "<scene version=\"3.0.0\">\n<include filename=\"b.xml\"/>\n</scene>";
+    check([
+        Case::new("include cycle", 3, &["b.xml:2:1", "includes itself"])
+            .file("scene.xml", cyclic)
+            .file("b.xml", cyclic.replace("b.xml", "scene.xml")),
+        Case::scene(
+            "missing include",
+            4,
+            &["b.xml", "scene.xml:3:1"],
+            "<include filename=\"b.xml\"/>",
+        ),
+        Case::scene(
+            "undefined name",
+            3,
+            &["scene.xml:5:", "$albedo", "-D albedo="],
+            &ball("<float name=\"radius\" value=\"$albedo\"/>"),
+        ),
+        Case::scene("unused definition", 3, &["size=3"], LIGHT).with(&["-D", "size=3"]),
+        Case::scene(
+            "id taken twice",
+            3,
+            &["scene.xml:4:1", "“a”", "scene.xml:3:1"],
+            "<bsdf type=\"diffuse\" id=\"a\"/>\n<bsdf type=\"diffuse\" id=\"a\"/>",
+        ),
+        Case::scene(
+            "dangling reference",
+            3,
+            &["scene.xml:6:1", "“grey”", "did you mean “gray”?"],
+            "<bsdf type=\"diffuse\" id=\"gray\"/>\n<emitter type=\"constant\"/>\n\
+             <shape type=\"sphere\">\n<ref id=\"grey\"/></shape>",
+        ),
+        Case::scene(
+            "plugins in a circle",
+            3,
+            &["scene.xml:3:1", "circle"],
+            "<bsdf type=\"twosided\" id=\"a\"><ref id=\"b\"/></bsdf>\n\
+             <bsdf type=\"twosided\" id=\"b\"><ref id=\"a\"/></bsdf>",
+        ),
+    ]);
+}
+
+#[test]
+fn values_outside_their_domain_are_refused_where_they_stand() {
+    check([
+        material(
+            "negative roughness",
+            3,
+            &["scene.xml:5:", "“alpha”", "-0.1"],
+            "<bsdf type=\"roughconductor\"><float name=\"alpha\" value=\"-0.1\"/></bsdf>",
+        ),
+        material(
+            "negative roughness of plastic",
+            3,
+            &["scene.xml:5:", "“alpha”"],
+            "<bsdf type=\"roughplastic\"><float name=\"alpha\" value=\"-0.1\"/></bsdf>",
+        ),
+        material(
+            "roughness that is not a number",
+            3,
+            &["scene.xml:5:", "“nan”"],
+            "<bsdf type=\"roughdielectric\"><float name=\"alpha\" value=\"nan\"/></bsdf>",
+        ),
+        material(
+            "index of refraction 0",
+            3,
+            &["scene.xml:5:", "“int_ior”"],
+            "<bsdf type=\"dielectric\"><float name=\"int_ior\" value=\"0\"/></bsdf>",
+        ),
+        Case::scene(
+            "radius 0",
+            3,
+            &["scene.xml:5:", "“radius”"],
+            &ball("<float name=\"radius\" value=\"0\"/>"),
+        ),
+        Case::scene(
+            "singular transform",
+            3,
+            &["scene.xml:5:", "“to_world”", "singular"],
+            &ball("<transform name=\"to_world\"><scale x=\"0\"/></transform>"),
+        ),
+        Case::scene(
+            "light without area",
+            3,
+            &["scene.xml:3:1", "area"],
+            "<shape type=\"obj\"><string name=\"filename\" value=\"line.obj\"/>\
+             <emitter type=\"area\"/></shape>",
+        )
+        .file("line.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n"),
+        Case::scene(
+            "direction without length",
+            3,
+            &["scene.xml:3:", "direction"],
+            "<emitter type=\"directional\"><vector name=\"direction\" value=\"0 0 0\"/></emitter>",
+        ),
+    ]);
+}
+
+#[test]
+fn albedos_outside_the_unit_interval_are_clamped_with_a_warning() {
+    let albedo = |value| {
+        format!("<bsdf type=\"diffuse\"><rgb name=\"reflectance\" value=\"{value}\"/></bsdf>")
+    };
+    check([
+        material("negative albedo", 0, &["scene.xml:5:", "“reflectance”", "-0.1"], &albedo("-0.1")),
+        material("albedo above 1", 0, &["scene.xml:5:", "“reflectance”", "1.5"], &albedo("1.5")),
+        material("albedo 1", 0, &[], &albedo("1")),
+    ]);
+}
+
+/// A scene that is nothing but a sensor, whose content begins on line 3.
+fn sensor(what: &'static str, exit: i32, says: &'static [&'static str], content: &str) -> Case {
+    let text = format!(
+        "<scene version=\"3.0.0\">\n<sensor type=\"perspective\">\n{content}\n</sensor>\n{LIGHT}\n</scene>"
+    );
+    Case::new(what, exit, says).file("scene.xml", text)
+}
+
+#[test]
+fn cameras_and_films_that_see_nothing_are_refused() {
+    let film = |width: &str, height: &str| {
+        format!(
+            "<film type=\"hdrfilm\">\n<integer name=\"width\" value=\"{width}\"/>\n\
+             <integer name=\"height\" value=\"{height}\"/></film>"
+        )
+    };
+    let fov = |degrees| format!("<float name=\"fov\" value=\"{degrees}\"/>");
+    let look_at = |up| {
+        format!(
+            "<transform name=\"to_world\">\n<lookat origin=\"0 0 5\" target=\"0 0 0\" up=\"{up}\"/></transform>"
+        )
+    };
+    check([
+        sensor("film without columns", 3, &["scene.xml:4:1", "width"], &film("0", "4")),
+        sensor("film without rows", 3, &["scene.xml:5:1", "height"], &film("4", "0")),
+        sensor("film of negative width", 3, &["scene.xml:4:1", "“width”", "-4"], &film("-4", "4")),
+        sensor("film 2³¹ wide", 5, &["scene.xml:4:1", "2147483648"], &film("2147483648", "576")),
+        sensor("film 2³³ wide", 3, &["scene.xml:4:1", "“width”"], &film("8589934592", "4")),
+        sensor("film of 2⁶² pixels", 5, &["scene.xml:4:1"], &film("2147483648", "2147483648")),
+        sensor("fov 0", 3, &["scene.xml:3:1", "“fov”"], &fov("0")),
+        sensor("fov 180", 3, &["scene.xml:3:1", "“fov”", "180"], &fov("180")),
+        sensor("fov NaN", 3, &["scene.xml:3:1", "“NaN”"], &fov("NaN")),
+        sensor("up along the view", 3, &["scene.xml:4:1", "up"], &look_at("0 0 1")),
+        sensor(
+            "near clip beyond far clip",
+            3,
+            &["scene.xml:2:1", "near"],
+            "<float name=\"near_clip\" value=\"2\"/><float name=\"far_clip\" value=\"1\"/>",
+        ),
+    ]);
+}
+
+const TRIANGLE: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+
+#[test]
+fn meshes_that_are_wrong_are_refused_with_their_line() {
+    let faces = |face: &str| format!("{TRIANGLE}f {face}\n");
+    let ply = |positions: &str, face: &str| {
+        format!(
+            "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n\
+             property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n\
+             {positions}\n{face}\n"
+        )
+    };
+    let positions = "0 0 0\n1 0 0\n0 1 0";
+    let mut truncated =
+        ply("", "").replace("ascii", "binary_little_endian").trim_end().as_bytes().to_vec();
+    truncated.push(b'\n');
+    truncated.extend([0; 20]);
+    check([
+        Case::obj("index beyond the last vertex", 3, &["mesh.obj:4", "4"], &faces("1 2 4")),
+        Case::obj("index 0", 3, &["mesh.obj:4", "0"], &faces("0 1 2")),
+        Case::obj("index before the first vertex", 3, &["mesh.obj:4", "-4"], &faces("-1 -2 -4")),
+        // 3 · 2⁶¹ + 1: times 3 this is 3 in 64 bits.
+        Case::obj(
+            "index that overflows when multiplied",
+            3,
+            &["mesh.obj:4", "6148914691236517206"],
+            &faces("1//6148914691236517206 2//1 3//1"),
+        ),
+        Case::obj(
+            "index of 2⁶⁴ + 1",
+            3,
+            &["mesh.obj:4", "18446744073709551617"],
+            &faces("1 2 18446744073709551617"),
+        ),
+        Case::obj("index that is no number", 3, &["mesh.obj:4", "'x'"], &faces("1 2 x")),
+        Case::obj("NaN vertex", 3, &["mesh.obj:2", "nan"], "v 0 0 0\nv nan 0 0\n"),
+        Case::obj("infinite vertex", 3, &["mesh.obj:1", "1e99"], "v 0 1e99 0\n"),
+        Case::obj("short vertex", 3, &["mesh.obj:1"], "v 0 0\n"),
+        Case::obj("no triangles", 0, &["mesh.obj"], TRIANGLE),
+        Case::ply("not a PLY file", 3, &["mesh.ply:1"], "v 0 0 0\n"),
+        Case::ply("index out of range", 3, &["mesh.ply:13", "'3'"], ply(positions, "3 0 1 3")),
+        Case::ply(
+            "NaN vertex",
+            3,
+            &["mesh.ply:11", "nan"],
+            ply("0 0 0\n0 nan 0\n0 1 0", "3 0 1 2"),
+        ),
+        Case::ply("missing face", 3, &["mesh.ply:", "ends"], ply(positions, "")),
+        Case::ply(
+            "binary data cut off",
+            3,
+            &["mesh.ply:3", "3 vertex records do not fit"],
+            truncated,
+        ),
+        Case::ply("unknown format", 3, &["mesh.ply:2"], "ply\nformat text 1.0\nend_header\n"),
+        Case::scene(
+            "missing mesh",
+            4,
+            &["mesh.obj", "scene.xml:3:1"],
+            "<shape type=\"obj\"><string name=\"filename\" value=\"mesh.obj\"/></shape>",
+        ),
+    ]);
+}
+
+#[test]
+fn meshes_that_only_look_wrong_are_rendered_without_a_warning() {
+    let mtl = |text: &str| {
+        let obj = format!("mtllib mesh.mtl\nusemtl a\n{TRIANGLE}f 1 2 3\n");
+        Case::obj("material", 0, &[], &obj).file("mesh.mtl", text)
+    };
+    check([
+        mtl("newmtl a\nKd 0.5\n"),
+        mtl("\u{feff}newmtl a\nKd 0.5 0.5 0.5\n"),
+        Case::obj("byte-order mark", 0, &[], &format!("\u{feff}{TRIANGLE}f 1 2 3\n")),
+        Case::obj("continued line", 0, &[], &format!("{TRIANGLE}f 1 \\\n2 3\n")),
+        Case::obj(
+            "carriage returns",
+            0,
+            &[],
+            &format!("{TRIANGLE}f 1 2 3\n").replace('\n', "\r\n"),
+        ),
+        Case::obj("negative indices", 0, &[], &format!("{TRIANGLE}f -3 -2 -1\n")),
+        Case::new("byte-order mark", 0, &[])
+            .file("scene.xml", format!("\u{feff}{}", scene(&ball("")))),
+    ]);
+}
+
+/// One sound picture in a format.
+fn png() -> Vec<u8> {
+    let mut bytes = Cursor::new(Vec::new());
+    image::RgbImage::from_fn(64, 64, |x, y| image::Rgb([x as u8, y as u8, 7]))
+        .write_to(&mut bytes, image::ImageFormat::Png)
+        .expect("encoded");
+    bytes.into_inner()
+}
+
+fn exr() -> Vec<u8> {
+    use exr::prelude::{SpecificChannels, WritableImage};
+    let mut bytes = Cursor::new(Vec::new());
+    let channels =
+        SpecificChannels::rgb(|p: exr::math::Vec2<usize>| (p.0 as f32, p.1 as f32, 1.0_f32));
+    let image = exr::image::Image::from_channels((64_usize, 64_usize), channels);
+    image.write().to_buffered(&mut bytes).expect("encoded");
+    bytes.into_inner()
+}
+
+/// A ball with a picture on it; the file's name is on line 5.
+fn textured(what: &'static str, exit: i32, says: &'static [&'static str], name: &str) -> Case {
+    let bsdf = format!(
+        "<bsdf type=\"diffuse\"><texture name=\"reflectance\" type=\"bitmap\">\
+         <string name=\"filename\" value=\"{name}\"/></texture></bsdf>"
+    );
+    material(what, exit, says, &bsdf)
+}
+
+#[test]
+fn textures_that_cannot_be_decoded_are_named_with_the_place_that_uses_them() {
+    let half = |mut bytes: Vec<u8>| {
+        bytes.truncate(bytes.len() / 2);
+        bytes
+    };
+    let flipped = |mut bytes: Vec<u8>, at: usize| {
+        bytes[at] ^= 0xff;
+        bytes
+    };
+    let cases = [
+        textured("missing texture", 4, &["a.png", "scene.xml:5:"], "a.png"),
+        textured("PNG cut off", 3, &["a.png", "scene.xml:5:"], "a.png").file("a.png", half(png())),
+        textured("PNG of text", 3, &["a.png", "scene.xml:5:"], "a.png")
+            .file("a.png", "not a picture"),
+        textured("empty PNG", 3, &["a.png", "scene.xml:5:"], "a.png").file("a.png", ""),
+        // The length of the first chunk.
+        textured("PNG with a wrong header", 3, &["a.png", "scene.xml:5:"], "a.png")
+            .file("a.png", flipped(png(), 8)),
+        textured("EXR cut off", 3, &["a.exr", "scene.xml:5:"], "a.exr").file("a.exr", half(exr())),
+        textured("EXR of text", 3, &["a.exr", "scene.xml:5:"], "a.exr")
+            .file("a.exr", "not a picture"),
+        // The version number.
+        textured("EXR with a wrong header", 3, &["a.exr", "scene.xml:5:"], "a.exr")
+            .file("a.exr", flipped(exr(), 4)),
+    ];
+    check(cases);
+    // The pictures from which the wrong ones are made are right.
+    check(
+        [
+            textured("sound PNG", 0, &[], "a.png").file("a.png", png()),
+            textured("sound EXR", 0, &["clamped"], "a.exr").file("a.exr", exr()),
+        ]
+        .map(|case| Case { says: &[], ..case }),
+    );
+}
+
+/// The scene does not exist: that the message is about the output shows that the output was looked
+/// at before anything else.
+fn output(
+    what: &'static str,
+    exit: i32,
+    says: &'static [&'static str],
+    path: &'static str,
+) -> Case {
+    let case = Case::new(what, exit, says);
+    Case { arguments: vec!["render", "missing.xml", "-o", path, "--quiet"], ..case }
+}
+
+#[test]
+fn outputs_that_cannot_be_written_are_refused_before_the_scene_is_read() {
+    check([
+        output("missing folder", 4, &["no/such/out.pfm", "cannot write"], "no/such/out.pfm"),
+        output("unknown extension", 2, &["out.gif", "*.exr"], "out.gif"),
+        output("no extension", 2, &["out", "*.exr"], "out"),
+    ]);
+    let folder = Folder::new();
+    std::fs::create_dir(folder.path("out.pfm")).expect("a writable folder");
+    let outcome = folder.run(&["render", "missing.xml", "-o", "out.pfm"]);
+    assert_eq!(outcome.exit, Some(4), "{}", outcome.stderr);
+    assert_eq!(messages(&outcome, 4, &["out.pfm", "directory"]), None, "{}", outcome.stderr);
+}
+
+/// Permissions do not bind the superuser, but nobody creates files in `/proc`.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_folder_that_takes_no_files_is_refused_before_the_scene_is_read() {
+    check([output("/proc", 4, &["/proc/out.pfm", "cannot write"], "/proc/out.pfm")]);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_read_only_file_is_not_replaced() {
+    let folder = Folder::new();
+    folder.write("out.pfm", "precious");
+    let mut permissions = std::fs::metadata(folder.path("out.pfm")).expect("a file").permissions();
+    permissions.set_readonly(true);
+    std::fs::set_permissions(folder.path("out.pfm"), permissions).expect("an own file");
+    let outcome = folder.run(&["render", "missing.xml", "-o", "out.pfm"]);
+    assert_eq!(outcome.exit, Some(4), "{}", outcome.stderr);
+    assert_eq!(messages(&outcome, 4, &["out.pfm", "read-only"]), None, "{}", outcome.stderr);
+}
+
+#[test]
+fn wrong_command_lines_are_usage_errors() {
+    let usage =
+        |what, says, arguments: &[&'static str]| Case::scene(what, 2, says, LIGHT).with(arguments);
+    let other = |what, says, arguments: &[&'static str]| Case {
+        arguments: arguments.to_vec(),
+        ..Case::new(what, 2, says)
+    };
+    let mut cases = vec![
+        usage("size 0x0", &["0x0"], &["--size", "0x0"]),
+        usage("size with one number", &["WIDTHxHEIGHT"], &["--size", "640"]),
+        usage("crop outside the film", &["crop"], &["--crop", "3,3,2,2"]),
+        usage("empty crop", &["crop"], &["--crop", "0,0,0,0"]),
+        usage("threads 0", &["--threads"], &["--threads", "0"]),
+        usage("max-depth -2", &["--max-depth"], &["--max-depth", "-2"]),
+        usage("unknown sampler", &["--sampler", "halton"], &["--sampler", "halton"]),
+        usage("exposure NaN", &["--exposure"], &["--exposure", "nan"]),
+        usage("definition without a value", &["NAME=VALUE"], &["-D", "x"]),
+        usage("unknown option", &["--glow"], &["--glow"]),
+        other("no output", &["required"], &["render", "scene.xml"]),
+        other("unknown command", &["draw"], &["draw"]),
+    ];
+    // RENDER sets the number of samples itself.
+    let spp = ["render", "scene.xml", "-o", "out.pfm", "--spp", "0"];
+    cases.push(other("spp 0", &["--spp"], &spp));
+    check(cases);
+}

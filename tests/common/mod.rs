@@ -1,0 +1,119 @@
+//! What tests of the command `etendue` share: running it, folders that vanish, plain pictures.
+
+#![allow(dead_code, reason = "each test file is a program of its own and uses a part of this")]
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+pub(crate) mod picture;
+
+pub(crate) use picture::Picture;
+
+/// The command under test.
+pub(crate) const ETENDUE: &str = env!("CARGO_BIN_EXE_etendue");
+
+/// What a run of the command left behind.
+#[derive(Debug)]
+pub(crate) struct Outcome {
+    /// Exit code; `None` when a signal ended the process.
+    pub(crate) exit: Option<i32>,
+    pub(crate) stdout: String,
+    pub(crate) stderr: String,
+}
+
+impl Outcome {
+    /// The lines of standard error that report an error. Those of the argument parser have no
+    /// program name in front.
+    pub(crate) fn errors(&self) -> Vec<&str> {
+        let is_error = |l: &&str| l.starts_with("etendue: error:") || l.starts_with("error:");
+        self.stderr.lines().filter(is_error).collect()
+    }
+
+    /// The lines of standard error that warn.
+    pub(crate) fn warnings(&self) -> Vec<&str> {
+        self.stderr.lines().filter(|l| l.starts_with("etendue: warning:")).collect()
+    }
+
+    /// Standard output as one JSON value.
+    pub(crate) fn json(&self) -> serde_json::Value {
+        assert_eq!(self.stdout.lines().count(), 1, "one line: {}", self.stdout);
+        serde_json::from_str(&self.stdout).expect("JSON")
+    }
+}
+
+impl From<Output> for Outcome {
+    fn from(output: Output) -> Self {
+        let text = |bytes| String::from_utf8(bytes).expect("the command prints UTF-8");
+        Self {
+            exit: output.status.code(),
+            stdout: text(output.stdout),
+            stderr: text(output.stderr),
+        }
+    }
+}
+
+/// A folder for one test, removed at its end.
+pub(crate) struct Folder(tempfile::TempDir);
+
+impl Folder {
+    pub(crate) fn new() -> Self {
+        Self(tempfile::tempdir().expect("a temporary folder"))
+    }
+
+    /// The path of a file in the folder.
+    pub(crate) fn path(&self, name: &str) -> PathBuf {
+        self.0.path().join(name)
+    }
+
+    pub(crate) fn write(&self, name: &str, content: impl AsRef<[u8]>) {
+        fs::write(self.path(name), content).expect("a writable temporary folder");
+    }
+
+    /// Names of everything in the folder, sorted.
+    pub(crate) fn names(&self) -> Vec<String> {
+        let entries = fs::read_dir(self.0.path()).expect("a readable temporary folder");
+        let name = |entry: std::io::Result<fs::DirEntry>| {
+            entry.expect("an entry").file_name().into_string().expect("a name in UTF-8")
+        };
+        let mut names: Vec<String> = entries.map(name).collect();
+        names.sort();
+        names
+    }
+
+    /// The command with the folder as current directory.
+    pub(crate) fn command(&self, arguments: &[&str]) -> Command {
+        let mut command = Command::new(ETENDUE);
+        command.args(arguments).current_dir(self.0.path());
+        command
+    }
+
+    /// Runs the command in the folder.
+    pub(crate) fn run(&self, arguments: &[&str]) -> Outcome {
+        self.command(arguments).output().expect("the command starts").into()
+    }
+
+    /// Renders to `out.pfm`, which must succeed, and reads the picture.
+    pub(crate) fn render(&self, scene: &Path, arguments: &[&str]) -> Picture {
+        let scene = scene.to_str().expect("a path in UTF-8");
+        let fixed = ["render", scene, "-o", "out.pfm", "--quiet"];
+        let outcome = self.run(&[&fixed, arguments].concat());
+        assert_eq!(outcome.exit, Some(0), "{scene} {arguments:?}: {}", outcome.stderr);
+        Picture::read_pfm(&self.path("out.pfm"))
+    }
+}
+
+/// A file of the repository.
+pub(crate) fn repository(path: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(path)
+}
+
+/// A scene file with a camera of 4 × 4 pixels at (0, 0, 5) that looks at the origin; `body` begins
+/// on line 3.
+pub(crate) fn scene(body: &str) -> String {
+    let camera = r#"<transform name="to_world"><lookat origin="0 0 5" target="0 0 0" up="0 1 0"/></transform>"#;
+    let film = r#"<film type="hdrfilm"><integer name="width" value="4"/><integer name="height" value="4"/></film>"#;
+    format!(
+        "<scene version=\"3.0.0\">\n<sensor type=\"perspective\">{camera}{film}</sensor>\n{body}\n</scene>\n"
+    )
+}
