@@ -71,6 +71,7 @@ impl From<SceneError> for Failure {
             ErrorKind::Scene => Exit::Scene,
             ErrorKind::Io => Exit::InputOutput,
             ErrorKind::Resource => Exit::Resource,
+            ErrorKind::Options => Exit::Usage,
         };
         Self::new(exit, error.to_string())
     }

@@ -50,6 +50,8 @@ pub enum ErrorKind {
     Io,
     /// The content asks for more memory or work than is allowed.
     Resource,
+    /// What the caller asked for beside the file does not fit it.
+    Options,
 }
 
 /// Why a scene could not be loaded: what, where, and how to mend it.
@@ -84,6 +86,12 @@ impl SceneError {
     /// The content asks for too much.
     pub fn resource(location: Location, message: impl Into<String>) -> Self {
         Self { kind: ErrorKind::Resource, location, message: message.into(), help: None }
+    }
+
+    /// What the caller asked for beside the file does not fit it; no file is to blame.
+    pub fn options(message: impl Into<String>) -> Self {
+        let location = Location::default();
+        Self { kind: ErrorKind::Options, location, message: message.into(), help: None }
     }
 
     /// The same error with advice on how to mend it.

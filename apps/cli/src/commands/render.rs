@@ -228,7 +228,10 @@ fn numbers<const N: usize>(text: &str, separator: char) -> Option<[u32; N]> {
 }
 
 fn size(text: &str) -> Result<[u32; 2], String> {
-    numbers(text, 'x').ok_or_else(|| "expected WIDTHxHEIGHT, as in 640x480".to_owned())
+    match numbers(text, 'x') {
+        Some(size) if !size.contains(&0) => Ok(size),
+        _ => Err("expected WIDTHxHEIGHT, as in 640x480, both at least 1".to_owned()),
+    }
 }
 
 fn crop(text: &str) -> Result<Crop, String> {

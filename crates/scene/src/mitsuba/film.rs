@@ -4,9 +4,9 @@ use alloc::format;
 
 use super::reader::PluginReader;
 use super::{Context, Family};
-use crate::SceneError;
 use crate::film::{Crop, Film, ReconstructionFilter};
 use crate::xml::Kind;
+use crate::{Location, SceneError};
 
 /// The films there are. How the picture is stored is chosen by whoever writes it.
 const FILMS: &Family<Film> = &[("hdrfilm", film), ("ldrfilm", film)];
@@ -33,7 +33,7 @@ pub(super) fn of<'a>(
 ) -> Result<Film, SceneError> {
     match reader.child(Kind::Film, context)? {
         Some(child) => context.translate(FILMS, context.description.node(child.node)),
-        None => overridden(reader, context, Film::new(DEFAULT_SIZE)),
+        None => overridden(Film::new(DEFAULT_SIZE), context, |name| reader.location(name)),
     }
 }
 
@@ -72,45 +72,47 @@ fn film<'a>(reader: &mut PluginReader<'a>, context: &mut Context<'a>) -> Result<
     ]);
     let crop = Crop { offset, size: crop };
     let film = Film { size, crop, filter, sample_border };
-    overridden(reader, context, film)
+    overridden(film, context, |name| reader.location(name))
 }
 
-/// The film with what the caller asks for instead, checked.
-fn overridden(
-    reader: &PluginReader<'_>,
+/// The film in the size and with the crop the caller asks for, checked. `location` tells where the
+/// file states a parameter of the film.
+///
+/// # Errors
+/// More pixels than [`MOST_PIXELS`], a crop that is empty or exceeds the film.
+pub(super) fn overridden(
+    mut film: Film,
     context: &Context<'_>,
-    film: Film,
+    location: impl Fn(&str) -> Location,
 ) -> Result<Film, SceneError> {
-    let film = with_overrides(film, context);
-    let [width, height] = film.size.map(u64::from);
-    if width * height > MOST_PIXELS {
-        let message = format!("a film of {width} × {height} pixels is too large");
-        return Err(SceneError::resource(reader.location("width"), message)
-            .help(format!("at most {MOST_PIXELS} pixels are possible")));
-    }
-    if film.contains_crop() {
-        Ok(film)
-    } else {
-        let [x, y] = film.crop.offset;
-        let [w, h] = film.crop.size;
-        let message = format!(
-            "the crop of {w} × {h} pixels at ({x}, {y}) is empty or exceeds the film of \
-             {width} × {height} pixels"
-        );
-        Err(reader.error("crop_width", message))
-    }
-}
-
-/// The film in the size and with the crop the caller asks for.
-pub(super) fn with_overrides(mut film: Film, context: &Context<'_>) -> Film {
-    if let Some(size) = context.options.film_size {
+    let options = context.options;
+    if let Some(size) = options.film_size {
         film.size = size;
         film.crop = Crop { offset: [0, 0], size };
     }
-    if let Some(crop) = context.options.crop {
+    if let Some(crop) = options.crop {
         film.crop = crop;
     }
-    film
+    let [width, height] = film.size.map(u64::from);
+    if width * height > MOST_PIXELS {
+        let message = format!("a film of {width} × {height} pixels is too large");
+        return Err(SceneError::resource(location("width"), message)
+            .help(format!("at most {MOST_PIXELS} pixels are possible")));
+    }
+    if film.contains_crop() {
+        return Ok(film);
+    }
+    let [x, y] = film.crop.offset;
+    let [w, h] = film.crop.size;
+    let message = format!(
+        "the crop of {w} × {h} pixels at ({x}, {y}) is empty or exceeds the film of \
+         {width} × {height} pixels"
+    );
+    Err(if options.film_size.is_some() || options.crop.is_some() {
+        SceneError::options(message)
+    } else {
+        SceneError::scene(location("crop_width"), message)
+    })
 }
 
 fn pixels(

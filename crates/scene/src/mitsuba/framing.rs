@@ -28,10 +28,10 @@ const TOWARDS_CAMERA: DVec3 = DVec3::new(0.5, 0.45, 1.0);
 /// # Errors
 /// A picture without pixels, a scene too large for single precision.
 pub(super) fn sensor(context: &Context<'_>, bounds: &Aabb) -> Result<Sensor, SceneError> {
-    let film = film::with_overrides(Film::new(film::DEFAULT_SIZE), context);
+    let file = || Location::file(context.file());
+    let film = film::overridden(Film::new(film::DEFAULT_SIZE), context, |_| file())?;
     let refused = |error: &dyn core::fmt::Display| {
-        let location = Location::file(context.file());
-        SceneError::scene(location, format!("no camera can frame the scene: {error}"))
+        SceneError::scene(file(), format!("no camera can frame the scene: {error}"))
     };
     let (center, radius) = if bounds.is_empty() {
         (DVec3::ZERO, 1.0)
