@@ -74,8 +74,15 @@ struct Angles<T> {
 impl<T: Real> Angles<T> {
     #[inline(always)]
     fn new(wo: Vec3<T>, wi: Vec3<T>) -> Self {
-        // β belongs to the direction nearer to the normal.
-        let (b, a) = if wo.z() > wi.z() { (wo, wi) } else { (wi, wo) };
+        if wo.z() < wi.z() {
+            return Self::ordered(wi, wo);
+        }
+        Self::ordered(wo, wi)
+    }
+
+    /// β belongs to `b`.
+    #[inline(always)]
+    fn ordered(b: Vec3<T>, a: Vec3<T>) -> Self {
         let sine = |w: Vec3<T>| (w.x() * w.x() + w.y() * w.y()).sqrt().min(T::ONE);
         let (sin_alpha, sin_beta) = (sine(a), sine(b));
         let product = sin_alpha * sin_beta;
