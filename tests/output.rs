@@ -2,9 +2,9 @@
 
 mod common;
 
+use core::time::Duration;
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
-use std::time::Duration;
 
 use common::{Folder, Outcome, Picture, scene};
 use exr::meta::MetaData;

@@ -39,7 +39,7 @@ impl Picture {
     pub(crate) fn read_pfm(path: &Path) -> Self {
         let bytes = std::fs::read(path).expect("the picture exists");
         let mut parts = bytes.splitn(4, |&b| b == b'\n');
-        let mut line = || std::str::from_utf8(parts.next().expect("a line")).expect("text");
+        let mut line = || core::str::from_utf8(parts.next().expect("a line")).expect("text");
         assert_eq!(line(), "PF");
         let size: Vec<usize> = line().split(' ').map(|n| n.parse().expect("a size")).collect();
         let scale: f32 = line().parse().expect("a scale");
