@@ -2,6 +2,7 @@
 
 use super::LANES;
 use super::build::TriangleRef;
+use super::traverse::Found;
 
 /// Eight triangles side by side. Lanes without a triangle hold NaN, which no test lets pass.
 #[derive(Clone, Debug)]
@@ -31,6 +32,13 @@ impl TriangleBlock {
             block.primitives[lane] = triangle.primitive;
         }
         block
+    }
+
+    /// A hit in a lane.
+    #[inline(always)]
+    pub(super) fn found(&self, lane: usize, t: f32, uv: [f32; 2]) -> Found {
+        let (shape, primitive) = (self.shapes[lane], self.primitives[lane]);
+        Found { t, uv, shape, primitive, instance: u32::MAX }
     }
 }
 

@@ -12,7 +12,7 @@ pub(super) struct BoxRay<F> {
     /// Reciprocals of the direction, shrunk for where boxes begin, stretched for where they end.
     to_near: [F; 3],
     to_far: [F; 3],
-    /// For each axis, which of the six rows of [`Node::bounds`] the ray meets first.
+    /// For each axis, which of its two rows in [`Node::bounds`] the ray meets first.
     near: [usize; 3],
 }
 
@@ -33,13 +33,13 @@ impl<F: Copy> BoxRay<F> {
         let [x, y, z] = ray.direction.to_array();
         let (x, y, z) = (1.0 / x, 1.0 / y, 1.0 / z);
         // The sign of the reciprocal, so that −0 selects the rows that fit its −∞.
-        let row = |axis: usize, inverse: f32| 2 * axis + usize::from(inverse.is_sign_negative());
+        let row = |inverse: f32| usize::from(inverse.is_sign_negative());
         let (shrink, stretch) = (1.0 - WIDEN, 1.0 + WIDEN);
         Self {
             origin: [simd.splat(ray.origin.x), simd.splat(ray.origin.y), simd.splat(ray.origin.z)],
             to_near: [simd.splat(x * shrink), simd.splat(y * shrink), simd.splat(z * shrink)],
             to_far: [simd.splat(x * stretch), simd.splat(y * stretch), simd.splat(z * stretch)],
-            near: [row(0, x), row(1, y), row(2, z)],
+            near: [row(x), row(y), row(z)],
         }
     }
 }
@@ -63,9 +63,9 @@ pub(super) fn entered<S: Simd>(
     let mut enter = simd.splat(0.0);
     let mut leave = simd.splat(t_max);
     for axis in 0..3 {
-        let row = ray.near[axis];
-        let near = simd.sub(simd.load(&node.bounds[row]), ray.origin[axis]);
-        let far = simd.sub(simd.load(&node.bounds[row ^ 1]), ray.origin[axis]);
+        let (near, far) = (ray.near[axis] & 1, (ray.near[axis] ^ 1) & 1);
+        let near = simd.sub(simd.load(&node.bounds[axis][near]), ray.origin[axis]);
+        let far = simd.sub(simd.load(&node.bounds[axis][far]), ray.origin[axis]);
         enter = simd.max(simd.mul(near, ray.to_near[axis]), enter);
         leave = simd.min(simd.mul(far, ray.to_far[axis]), leave);
     }

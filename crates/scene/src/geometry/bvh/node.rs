@@ -7,8 +7,8 @@ use crate::geometry::Aabb;
 #[derive(Clone, Debug, PartialEq)]
 #[repr(C, align(64))]
 pub(super) struct Node {
-    /// Least and largest x, y and z of each child, in the order `[x₀, x₁, y₀, y₁, z₀, z₁]`.
-    pub(super) bounds: [[f32; LANES]; 6],
+    /// Least and largest coordinates of each child, by axis.
+    pub(super) bounds: [[[f32; LANES]; 2]; 3],
     pub(super) children: [Child; LANES],
 }
 
@@ -75,21 +75,14 @@ impl Child {
 impl Node {
     /// A node without children: its boxes are empty, so that no ray enters them.
     pub(super) const EMPTY: Self = Self {
-        bounds: [
-            [f32::INFINITY; LANES],
-            [f32::NEG_INFINITY; LANES],
-            [f32::INFINITY; LANES],
-            [f32::NEG_INFINITY; LANES],
-            [f32::INFINITY; LANES],
-            [f32::NEG_INFINITY; LANES],
-        ],
+        bounds: [[[f32::INFINITY; LANES], [f32::NEG_INFINITY; LANES]]; 3],
         children: [Child(0); LANES],
     };
 
     pub(super) fn set(&mut self, lane: usize, bounds: &Aabb, child: Child) {
         for axis in 0..3 {
-            self.bounds[2 * axis][lane] = bounds.min[axis];
-            self.bounds[2 * axis + 1][lane] = bounds.max[axis];
+            self.bounds[axis][0][lane] = bounds.min[axis];
+            self.bounds[axis][1][lane] = bounds.max[axis];
         }
         self.children[lane] = child;
     }

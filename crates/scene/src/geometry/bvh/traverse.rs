@@ -1,9 +1,8 @@
 //! Closest and any hit.
 
-use super::block::TriangleBlock;
 use super::build::MAX_DEPTH;
 use super::node::{Child, Content, Node};
-use super::simd::Simd;
+use super::simd::{Simd, Stack};
 use super::{Bvh, LANES, PreparedRay, boxes, triangles};
 
 /// The closest hit so far.
@@ -32,82 +31,69 @@ pub(in crate::geometry) trait Objects {
     fn occluded<S: Simd>(&self, simd: S, object: u32, t_max: f32) -> bool;
 }
 
-/// Children still to visit, with the distance at which the ray enters them.
-///
 /// A node leaves at most seven siblings behind per level, and levels are limited by construction.
-struct Stack {
-    entries: [u64; (LANES - 1) * MAX_DEPTH + LANES],
-    length: usize,
+const CAPACITY: usize = (LANES - 1) * MAX_DEPTH + LANES;
+
+/// A child still to visit and where the ray enters it, in the order of the latter: distances are
+/// not negative, so that their bits are in the order of their values.
+#[inline(always)]
+fn entry(distance: f32, child: Child) -> u64 {
+    u64::from(distance.to_bits()) << 32 | u64::from(child.bits())
 }
 
-impl Stack {
-    #[inline(always)]
-    fn new() -> Self {
-        Self { entries: [0; (LANES - 1) * MAX_DEPTH + LANES], length: 0 }
-    }
-
-    /// Distances are not negative, so that their bits are in the order of their values.
-    #[inline(always)]
-    fn push(&mut self, distance: f32, child: Child) {
-        self.entries[self.length] = u64::from(distance.to_bits()) << 32 | u64::from(child.bits());
-        self.length += 1;
-    }
-
-    /// The next child that is entered at `t_max` or before.
-    #[inline(always)]
-    fn pop(&mut self, t_max: f32) -> Option<Child> {
-        while self.length > 0 {
-            self.length -= 1;
-            let entry = self.entries[self.length];
-            if f32::from_bits((entry >> 32) as u32) <= t_max {
-                return Some(Child::from_bits(entry as u32));
-            }
+/// The next child that is entered at `t_max` or before.
+#[inline(always)]
+fn pop(stack: &mut Stack<u64, CAPACITY>, t_max: f32) -> Option<Child> {
+    while let Some(entry) = stack.pop() {
+        if f32::from_bits((entry >> 32) as u32) <= t_max {
+            return Some(Child::from_bits(entry as u32));
         }
-        None
     }
+    None
+}
 
-    /// Pushes the children in a mask so that nearer ones come out first, and returns the nearest.
-    #[inline(always)]
-    fn push_all_but_nearest(
-        &mut self,
-        node: &Node,
-        mask: u32,
-        distances: &[f32; LANES],
-    ) -> Option<Child> {
-        let mut entered = lanes(mask);
-        let first = entered.next()?;
-        // Most nodes have one or two such children: no sorting.
-        let Some(second) = entered.next() else { return Some(node.children[first]) };
-        let (near, far) =
-            if distances[second] < distances[first] { (second, first) } else { (first, second) };
-        let bottom = self.length;
-        self.push(distances[far], node.children[far]);
-        let Some(third) = entered.next() else { return Some(node.children[near]) };
-        self.push(distances[near], node.children[near]);
-        self.push_sorted(bottom, distances[third], node.children[third]);
-        for lane in entered {
-            self.push_sorted(bottom, distances[lane], node.children[lane]);
-        }
-        self.pop(f32::INFINITY)
+/// Pushes the children in a mask so that nearer ones come out first, and returns the nearest.
+///
+/// The counts 0, 1, 2 and more have code of their own: most nodes have one or two such children,
+/// and what comes next is loaded while the distances are still on their way.
+#[inline(always)]
+fn push_all_but_nearest(
+    stack: &mut Stack<u64, CAPACITY>,
+    node: &Node,
+    mask: u32,
+    distances: &[f32; LANES],
+) -> Option<Child> {
+    let mut entered = lanes(mask);
+    let first = entered.next()?;
+    let Some(second) = entered.next() else { return Some(node.children[first]) };
+    let key = |lane: usize| entry(distances[lane], node.children[lane]);
+    let (a, b) = (key(first), key(second));
+    let (mut near, far) = (a.min(b), a.max(b));
+    let bottom = stack.len();
+    stack.push(far);
+    for lane in entered {
+        let new = key(lane);
+        stack.push(near.max(new));
+        near = near.min(new);
+        sift(stack, bottom);
     }
+    Some(Child::from_bits(near as u32))
+}
 
-    /// Pushes into the descending entries above `bottom`, the nearest on top.
-    #[inline(always)]
-    fn push_sorted(&mut self, bottom: usize, distance: f32, child: Child) {
-        self.push(distance, child);
-        let mut i = self.length - 1;
-        let entry = self.entries[i];
-        while i > bottom && self.entries[i - 1] < entry {
-            self.entries[i] = self.entries[i - 1];
-            i -= 1;
-        }
-        self.entries[i] = entry;
+/// Moves the last entry down into the descending ones above `bottom`.
+#[inline(always)]
+fn sift(stack: &mut Stack<u64, CAPACITY>, bottom: usize) {
+    let entries = &mut stack.as_mut_slice()[bottom..];
+    let mut i = entries.len() - 1;
+    while i > 0 && entries[i - 1] < entries[i] {
+        entries.swap(i - 1, i);
+        i -= 1;
     }
 }
 
 /// The set bits of a mask, lowest first.
 #[inline(always)]
-fn lanes(mut mask: u32) -> impl Iterator<Item = usize> {
+pub(super) fn lanes(mut mask: u32) -> impl Iterator<Item = usize> {
     core::iter::from_fn(move || {
         (mask != 0).then(|| {
             let lane = mask.trailing_zeros() as usize & (LANES - 1);
@@ -127,31 +113,25 @@ impl Bvh {
         objects: &O,
         found: &mut Found,
     ) {
-        let mut stack = Stack::new();
+        let mut stack = Stack::<u64, CAPACITY>::new();
         let mut next = Some(Child::new(Content::Node(0)));
         while let Some(child) = next {
             match child.content() {
                 Content::Node(index) => {
                     let node = &self.nodes[index as usize];
                     let (mask, distances) = boxes::entered(simd, node, &ray.boxes, found.t);
-                    next = stack.push_all_but_nearest(node, mask, &distances);
+                    next = push_all_but_nearest(&mut stack, node, mask, &distances);
                     if next.is_some() {
                         continue;
                     }
                 }
                 Content::Block(index) => {
                     let block = &self.blocks[index as usize];
-                    if let Some(hits) = triangles::hits(simd, block, &ray.triangles, found.t) {
-                        for lane in lanes(hits.mask) {
-                            if hits.t[lane] < found.t {
-                                *found = hit_in(block, &hits, lane);
-                            }
-                        }
-                    }
+                    triangles::closest(simd, block, &ray.triangles, found);
                 }
                 Content::Object(object) => objects.closest(simd, object, found),
             }
-            next = stack.pop(found.t);
+            next = pop(&mut stack, found.t);
         }
     }
 
@@ -164,7 +144,7 @@ impl Bvh {
         objects: &O,
         t_max: f32,
     ) -> bool {
-        let mut stack = Stack::new();
+        let mut stack = Stack::<Child, CAPACITY>::new();
         let mut next = Some(Child::new(Content::Node(0)));
         while let Some(child) = next {
             let hit = match child.content() {
@@ -173,32 +153,20 @@ impl Bvh {
                     let (mask, _) = boxes::entered(simd, node, &ray.boxes, t_max);
                     // In any order: sorting costs more than it finds sooner.
                     for lane in lanes(mask) {
-                        stack.push(0.0, node.children[lane]);
+                        stack.push(node.children[lane]);
                     }
                     false
                 }
                 Content::Block(index) => {
-                    triangles::hits(simd, &self.blocks[index as usize], &ray.triangles, t_max)
-                        .is_some()
+                    triangles::any(simd, &self.blocks[index as usize], &ray.triangles, t_max)
                 }
                 Content::Object(object) => objects.occluded(simd, object, t_max),
             };
             if hit {
                 return true;
             }
-            next = stack.pop(t_max);
+            next = stack.pop();
         }
         false
-    }
-}
-
-#[inline(always)]
-fn hit_in(block: &TriangleBlock, hits: &triangles::BlockHits, lane: usize) -> Found {
-    Found {
-        t: hits.t[lane],
-        uv: [hits.b1[lane], hits.b2[lane]],
-        shape: block.shapes[lane],
-        primitive: block.primitives[lane],
-        instance: u32::MAX,
     }
 }

@@ -3,6 +3,7 @@
 use super::LANES;
 use super::block::TriangleBlock;
 use super::simd::Simd;
+use super::traverse::{Found, lanes};
 use crate::geometry::Ray;
 
 /// A ray as the triangle test wants it, in vectors: the axis along which it is longest and the shear
@@ -12,7 +13,7 @@ use crate::geometry::Ray;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct TriangleRay<F> {
     /// The two other axes and the longest one.
-    axes: [usize; 3],
+    axes: [Axis; 3],
     /// Origin along these axes.
     origin: [F; 3],
     /// Direction along the other axes over that along the longest.
@@ -21,21 +22,29 @@ pub(super) struct TriangleRay<F> {
     inverse: f32,
 }
 
+/// An axis as an index that needs no check.
+#[derive(Clone, Copy, Debug)]
+enum Axis {
+    X,
+    Y,
+    Z,
+}
+
 impl<F: Copy> TriangleRay<F> {
     #[inline(always)]
     pub(super) fn new<S: Simd<F = F>>(simd: S, ray: &Ray) -> Self {
         let (o, d) = (ray.origin.to_array(), ray.direction.to_array());
         let size = ray.direction.abs();
-        let z = if size.x >= size.y && size.x >= size.z {
-            0
+        let axes = if size.x >= size.y && size.x >= size.z {
+            [Axis::Y, Axis::Z, Axis::X]
         } else if size.y >= size.z {
-            1
+            [Axis::Z, Axis::X, Axis::Y]
         } else {
-            2
+            [Axis::X, Axis::Y, Axis::Z]
         };
-        let (x, y) = ((z + 1) % 3, (z + 2) % 3);
+        let [x, y, z] = axes.map(|axis| axis as usize);
         Self {
-            axes: [x, y, z],
+            axes,
             origin: [simd.splat(o[x]), simd.splat(o[y]), simd.splat(o[z])],
             shear: [simd.splat(d[x] / d[z]), simd.splat(d[y] / d[z])],
             inverse: 1.0 / d[z],
@@ -44,9 +53,9 @@ impl<F: Copy> TriangleRay<F> {
 
     #[inline(always)]
     fn shear<S: Simd<F = F>>(&self, simd: S, corner: &[[f32; LANES]; 3]) -> Sheared<F> {
-        let x = simd.sub(simd.load(&corner[self.axes[0]]), self.origin[0]);
-        let y = simd.sub(simd.load(&corner[self.axes[1]]), self.origin[1]);
-        let z = simd.sub(simd.load(&corner[self.axes[2]]), self.origin[2]);
+        let x = simd.sub(simd.load(&corner[self.axes[0] as usize]), self.origin[0]);
+        let y = simd.sub(simd.load(&corner[self.axes[1] as usize]), self.origin[1]);
+        let z = simd.sub(simd.load(&corner[self.axes[2] as usize]), self.origin[2]);
         Sheared {
             x: simd.sub(x, simd.mul(self.shear[0], z)),
             y: simd.sub(y, simd.mul(self.shear[1], z)),
@@ -55,14 +64,17 @@ impl<F: Copy> TriangleRay<F> {
     }
 }
 
-/// The triangles of a block that a ray hits.
-pub(super) struct BlockHits {
-    /// One bit per lane.
-    pub(super) mask: u32,
-    pub(super) t: [f32; LANES],
-    /// Barycentric weights of the second and third corner.
-    pub(super) b1: [f32; LANES],
-    pub(super) b2: [f32; LANES],
+/// A ray against the triangles of a block, as far as both closest and any hit need it.
+struct Tested<F> {
+    /// Lanes that are hit at `0 < t < t_max` for sure, and lanes that have to be looked at again.
+    hit: u32,
+    on_edge: u32,
+    t: F,
+    /// Edge functions and their sum.
+    v: F,
+    w: F,
+    determinant: F,
+    corners: [Sheared<F>; 3],
 }
 
 /// A corner in the sheared space of the ray, in which the ray is the z axis.
@@ -98,12 +110,12 @@ impl<F: Copy> Sheared<F> {
 /// # Source
 /// Woop, Benthin, Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1), 2013.
 #[inline(always)]
-pub(super) fn hits<S: Simd>(
+fn test<S: Simd>(
     simd: S,
     block: &TriangleBlock,
     ray: &TriangleRay<S::F>,
     t_max: f32,
-) -> Option<BlockHits> {
+) -> Option<Tested<S::F>> {
     let a = ray.shear(simd, &block.corners[0]);
     let b = ray.shear(simd, &block.corners[1]);
     let c = ray.shear(simd, &block.corners[2]);
@@ -124,48 +136,78 @@ pub(super) fn hits<S: Simd>(
     let depth = simd.add(simd.mul(u, a.z), simd.add(simd.mul(v, b.z), simd.mul(w, c.z)));
     let t = simd.mul(simd.div(depth, determinant), simd.splat(ray.inverse));
     let in_range = simd.lt(zero, t) & simd.lt(t, simd.splat(t_max));
-    let mut found = BlockHits {
-        mask: inside & in_range & !on_edge,
-        t: simd.store(t),
-        b1: simd.store(simd.div(v, determinant)),
-        b2: simd.store(simd.div(w, determinant)),
-    };
-    if on_edge != 0 {
-        redo_on_edges(
-            &mut found,
-            on_edge,
-            &[a.store(simd), b.store(simd), c.store(simd)],
-            ray.inverse,
-            t_max,
-        );
-    }
-    (found.mask != 0).then_some(found)
+    let hit = inside & in_range & !on_edge;
+    Some(Tested { hit, on_edge, t, v, w, determinant, corners: [a, b, c] })
 }
 
-/// Decides the lanes in which an edge function is 0 again in `f64`.
-#[cold]
-fn redo_on_edges(
-    found: &mut BlockHits,
-    lanes: u32,
-    sheared: &[[[f32; LANES]; 3]; 3],
-    inverse_depth: f32,
-    t_max: f32,
+/// Replaces `found` by the closest hit in a block, if it is closer.
+#[inline(always)]
+pub(super) fn closest<S: Simd>(
+    simd: S,
+    block: &TriangleBlock,
+    ray: &TriangleRay<S::F>,
+    found: &mut Found,
 ) {
-    for lane in (0..LANES).filter(|lane| lanes >> lane & 1 == 1) {
-        let [a, b, c] = sheared.map(|corner| corner.map(|axis| f64::from(axis[lane])));
-        let u = c[0] * b[1] - c[1] * b[0];
-        let v = a[0] * c[1] - a[1] * c[0];
-        let w = b[0] * a[1] - b[1] * a[0];
-        let determinant = u + v + w;
-        let one_sign = (u >= 0.0 && v >= 0.0 && w >= 0.0) || (u <= 0.0 && v <= 0.0 && w <= 0.0);
-        let t = (u * a[2] + v * b[2] + w * c[2]) / determinant * f64::from(inverse_depth);
-        let t = t as f32;
-        // A triangle seen edge-on has determinant 0 and t NaN.
-        if one_sign && determinant != 0.0 && t > 0.0 && t < t_max {
-            found.mask |= 1 << lane;
-            found.t[lane] = t;
-            found.b1[lane] = (v / determinant) as f32;
-            found.b2[lane] = (w / determinant) as f32;
+    let Some(tested) = test(simd, block, ray, found.t) else { return };
+    if tested.hit != 0 {
+        let t = simd.store(tested.t);
+        let (v, w) = (simd.store(tested.v), simd.store(tested.w));
+        let determinant = simd.store(tested.determinant);
+        for lane in lanes(tested.hit) {
+            if t[lane] < found.t {
+                let uv = [v[lane] / determinant[lane], w[lane] / determinant[lane]];
+                *found = block.found(lane, t[lane], uv);
+            }
         }
     }
+    if tested.on_edge != 0 {
+        let corners = tested.corners.map(|corner| corner.store(simd));
+        for lane in lanes(tested.on_edge) {
+            if let Some((t, uv)) = redo(&corners, lane, ray.inverse)
+                && t < found.t
+            {
+                *found = block.found(lane, t, uv);
+            }
+        }
+    }
+}
+
+/// Whether a triangle of a block is hit before `t_max`.
+#[inline(always)]
+pub(super) fn any<S: Simd>(
+    simd: S,
+    block: &TriangleBlock,
+    ray: &TriangleRay<S::F>,
+    t_max: f32,
+) -> bool {
+    let Some(tested) = test(simd, block, ray, t_max) else { return false };
+    if tested.hit != 0 {
+        return true;
+    }
+    if tested.on_edge == 0 {
+        return false;
+    }
+    let corners = tested.corners.map(|corner| corner.store(simd));
+    lanes(tested.on_edge)
+        .any(|lane| redo(&corners, lane, ray.inverse).is_some_and(|(t, _)| t < t_max))
+}
+
+/// Decides a lane in which an edge function is 0 again in `f64`: t and the weights of a hit.
+#[cold]
+fn redo(
+    sheared: &[[[f32; LANES]; 3]; 3],
+    lane: usize,
+    inverse_depth: f32,
+) -> Option<(f32, [f32; 2])> {
+    let [a, b, c] = sheared.map(|corner| corner.map(|axis| f64::from(axis[lane])));
+    let u = c[0] * b[1] - c[1] * b[0];
+    let v = a[0] * c[1] - a[1] * c[0];
+    let w = b[0] * a[1] - b[1] * a[0];
+    let determinant = u + v + w;
+    let one_sign = (u >= 0.0 && v >= 0.0 && w >= 0.0) || (u <= 0.0 && v <= 0.0 && w <= 0.0);
+    let t = (u * a[2] + v * b[2] + w * c[2]) / determinant * f64::from(inverse_depth);
+    let t = t as f32;
+    // A triangle seen edge-on has determinant 0 and t NaN.
+    (one_sign && determinant != 0.0 && t > 0.0)
+        .then(|| (t, [(v / determinant) as f32, (w / determinant) as f32]))
 }

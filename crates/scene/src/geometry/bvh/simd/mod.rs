@@ -9,8 +9,11 @@ mod avx2;
 mod portable;
 #[cfg(target_arch = "x86_64")]
 mod sse2;
+mod stack;
 
 use super::LANES;
+
+pub(super) use stack::Stack;
 
 /// Operations on eight floats. A value of an implementing type is the proof that the processor has
 /// the instructions.

@@ -1,0 +1,45 @@
+//! A stack that is not zeroed.
+#![allow(unsafe_code, reason = "zeroing the memory would cost as much as a tenth of a ray")]
+
+use core::mem::MaybeUninit;
+
+/// Up to `N` entries.
+pub(in crate::geometry::bvh) struct Stack<T, const N: usize> {
+    /// The first `length` are initialised.
+    entries: [MaybeUninit<T>; N],
+    length: usize,
+}
+
+impl<T: Copy, const N: usize> Stack<T, N> {
+    #[inline(always)]
+    pub(in crate::geometry::bvh) fn new() -> Self {
+        Self { entries: [const { MaybeUninit::uninit() }; N], length: 0 }
+    }
+
+    #[inline(always)]
+    pub(in crate::geometry::bvh) fn len(&self) -> usize {
+        self.length
+    }
+
+    /// # Panics
+    /// When it is full.
+    #[inline(always)]
+    pub(in crate::geometry::bvh) fn push(&mut self, entry: T) {
+        self.entries[self.length].write(entry);
+        self.length += 1;
+    }
+
+    #[inline(always)]
+    pub(in crate::geometry::bvh) fn pop(&mut self) -> Option<T> {
+        self.length = self.length.checked_sub(1)?;
+        // SAFETY: the entry is below the former length.
+        Some(unsafe { self.entries[self.length].assume_init() })
+    }
+
+    #[inline(always)]
+    pub(in crate::geometry::bvh) fn as_mut_slice(&mut self) -> &mut [T] {
+        let pushed = &mut self.entries[..self.length];
+        // SAFETY: entries below the length are initialised, and so may be read as `T`.
+        unsafe { &mut *(core::ptr::from_mut(pushed) as *mut [T]) }
+    }
+}
