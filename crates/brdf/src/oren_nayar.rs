@@ -74,13 +74,12 @@ struct Angles<T> {
 impl<T: Real> Angles<T> {
     #[inline(always)]
     fn new(wo: Vec3<T>, wi: Vec3<T>) -> Self {
-        if wo.z() < wi.z() {
-            return Self::ordered(wi, wo);
-        }
-        Self::ordered(wo, wi)
+        // Two calls, because rustc 1.95 miscompiles `let (b, a) = if … { (wo, wi) } else { (wi, wo) }`
+        // here: in `f64` a caller that passes the same pair again gets the value of another one.
+        if wo.z() > wi.z() { Self::ordered(wo, wi) } else { Self::ordered(wi, wo) }
     }
 
-    /// β belongs to `b`.
+    /// β belongs to `b`, the direction nearer to the normal, α to `a`.
     #[inline(always)]
     fn ordered(b: Vec3<T>, a: Vec3<T>) -> Self {
         let sine = |w: Vec3<T>| (w.x() * w.x() + w.y() * w.y()).sqrt().min(T::ONE);
