@@ -4,7 +4,7 @@ use etendue_math::{Real, Spectrum, Vec3, Vector3};
 
 use crate::bsdf::above;
 use crate::direction::{half_vector, reflect_about};
-use crate::fresnel::{dielectric, refract_about, transmittance_of_pair};
+use crate::fresnel::{RelativeIndex, refract_at};
 use crate::rough_conductor::reflection_pdf;
 use crate::{
     Bsdf, BsdfReal, BsdfVec, Density, Ior, Lobes, Microfacets, ParameterError, Reflectance, Sample,
@@ -39,7 +39,8 @@ use crate::{
 /// 21 and 41; visible normals after E. Heitz and E. d'Eon, EGSR 2014.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RoughDielectric<C: Spectrum> {
-    eta: C::Real,
+    from_above: RelativeIndex<C::Real>,
+    from_below: RelativeIndex<C::Real>,
     facets: Microfacets<C::Real>,
     specular_reflectance: C,
     specular_transmittance: C,
@@ -57,7 +58,8 @@ impl<C: Spectrum> RoughDielectric<C> {
             return Err(ParameterError { parameter: "eta", value: 1.0, domain });
         }
         Ok(Self {
-            eta: eta.value(),
+            from_above: RelativeIndex::from_above(eta.value()),
+            from_below: RelativeIndex::from_below(eta.value()),
             facets,
             specular_reflectance: C::white(),
             specular_transmittance: C::white(),
@@ -70,33 +72,43 @@ impl<C: Spectrum> RoughDielectric<C> {
         Self { specular_reflectance: ks.value(), specular_transmittance: kt.value(), ..self }
     }
 
-    /// `wo` and `wi` mirrored so that `wo` is above, and η of the far side relative to that of `wo`.
+    /// `wo` and `wi` mirrored so that `wo` is above, and the index as the side of `wo` sees it.
     #[inline(always)]
     fn upright(
         &self,
         wo: Vec3<C::Real>,
         wi: Vec3<C::Real>,
-    ) -> (Vec3<C::Real>, Vec3<C::Real>, C::Real) {
+    ) -> (Vec3<C::Real>, Vec3<C::Real>, RelativeIndex<C::Real>) {
         if wo.z() < C::Real::ZERO {
-            (wo.flip_z(), wi.flip_z(), C::Real::ONE / self.eta)
+            (wo.flip_z(), wi.flip_z(), self.from_below)
         } else {
-            (wo, wi, self.eta)
+            (wo, wi, self.from_above)
         }
     }
 
     #[inline]
-    fn reflection(&self, wo: Vec3<C::Real>, wi: Vec3<C::Real>, eta: C::Real) -> (C, C::Real) {
+    fn reflection(
+        &self,
+        wo: Vec3<C::Real>,
+        wi: Vec3<C::Real>,
+        index: RelativeIndex<C::Real>,
+    ) -> (C, C::Real) {
         let Some((h, cos)) = half_vector(wo, wi) else { return (C::black(), C::Real::ZERO) };
-        let f = dielectric(cos, eta);
+        let f = index.reflectance(cos);
         let d = self.facets.ndf(h);
         let lobe = (f * d * self.facets.visibility(wo, wi)).min(C::Real::MAX);
         (self.specular_reflectance.scale(lobe), f * reflection_pdf(&self.facets, wo, d))
     }
 
     #[inline]
-    fn refraction(&self, wo: Vec3<C::Real>, wi: Vec3<C::Real>, eta: C::Real) -> (C, C::Real) {
+    fn refraction(
+        &self,
+        wo: Vec3<C::Real>,
+        wi: Vec3<C::Real>,
+        index: RelativeIndex<C::Real>,
+    ) -> (C, C::Real) {
         let nothing = (C::black(), C::Real::ZERO);
-        let l = wo + wi * eta;
+        let (l, eta) = (index.half_sum(wo, wi), index.eta());
         let squared = l.length_squared();
         let Some(h) = l.try_normalize() else { return nothing };
         let h = if h.z() < C::Real::ZERO { -h } else { h };
@@ -104,7 +116,7 @@ impl<C: Spectrum> RoughDielectric<C> {
         if !(cos_o > C::Real::ZERO && cos_i > C::Real::ZERO) {
             return nothing; // a facet cannot be seen from behind
         }
-        let t = transmittance_of_pair(cos_o, eta * cos_i, eta);
+        let t = index.transmittance_of_pair(cos_o, eta * cos_i);
         let d = t * self.facets.ndf(h) * (cos_i / squared) * cos_o;
         let lobe = C::Real::lit(4.0) * d * self.facets.visibility(wo, wi);
         let pdf = d * eta * eta / self.facets.projected_area(wo);
@@ -132,11 +144,11 @@ impl<C: Spectrum> Bsdf for RoughDielectric<C> {
 
     #[inline]
     fn eval_pdf(&self, wo: BsdfVec<Self>, wi: BsdfVec<Self>) -> (C, BsdfReal<Self>) {
-        let (wo, wi, eta) = self.upright(wo, wi);
+        let (wo, wi, index) = self.upright(wo, wi);
         if above(wo) && above(wi) {
-            self.reflection(wo, wi, eta)
+            self.reflection(wo, wi, index)
         } else if above(wo) && above(-wi) {
-            self.refraction(wo, wi, eta)
+            self.refraction(wo, wi, index)
         } else {
             (C::black(), C::Real::ZERO)
         }
@@ -150,13 +162,13 @@ impl<C: Spectrum> Bsdf for RoughDielectric<C> {
         u: [BsdfReal<Self>; 2],
     ) -> Option<Sample<C>> {
         let one = <C::Real as Real>::ONE;
-        let (w, _, eta) = self.upright(wo, wo);
+        let (w, _, index) = self.upright(wo, wo);
         if !above(w) {
             return None;
         }
         let h = self.facets.sample_visible_normal(w, u)?;
-        let cos = w.dot(h);
-        let f = dielectric(cos, eta);
+        let cos = w.dot(h).min(one);
+        let f = index.reflectance(cos);
         let d = self.facets.ndf(h);
         let (wi, factor, pdf, eta_i) = if u_lobe < f {
             let wi = reflect_about(w, h);
@@ -165,15 +177,17 @@ impl<C: Spectrum> Bsdf for RoughDielectric<C> {
             }
             (wi, self.specular_reflectance, f * reflection_pdf(&self.facets, w, d), one)
         } else {
-            let wi = refract_about(w, h, eta)?;
+            let g = index.scaled_cos_t(cos)?;
+            let wi = refract_at(w, h, index, cos, g)?;
             if !above(-wi) {
                 return None;
             }
-            let cos_i = -wi.dot(h);
-            let squared = (w + wi * eta).length_squared();
-            let t = transmittance_of_pair(cos, eta * cos_i, eta);
+            // `l = (c − g) h` and `η cos θi = g`, known better here than from the rounded direction.
+            let eta = index.eta();
+            let length = index.cosine_difference(cos, g);
+            let t = index.transmittance_of_pair(cos, g);
             let visible = d * cos / self.facets.projected_area(w);
-            let pdf = (t * visible * (cos_i / squared) * eta * eta).min(C::Real::MAX);
+            let pdf = (t * visible * (g / (length * length)) * eta).min(C::Real::MAX);
             (wi, self.specular_transmittance.scale(one / (eta * eta)), pdf, eta)
         };
         let weight = factor.scale(self.facets.weight(w, wi));

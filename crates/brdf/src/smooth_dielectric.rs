@@ -4,7 +4,7 @@ use etendue_math::{Real, Spectrum, Vector3};
 
 use crate::bsdf::above;
 use crate::direction::reflect;
-use crate::fresnel::Refraction;
+use crate::fresnel::{Refraction, RelativeIndex};
 use crate::{Bsdf, BsdfReal, BsdfVec, Density, Ior, Lobes, Reflectance, Sample};
 
 /// Smooth interface between two dielectrics: reflection and refraction.
@@ -46,6 +46,16 @@ impl<C: Spectrum> SmoothDielectric<C> {
     pub fn with_factors(self, ks: Reflectance<C>, kt: Reflectance<C>) -> Self {
         Self { specular_reflectance: ks.value(), specular_transmittance: kt.value(), ..self }
     }
+
+    /// `wo` mirrored to the upper side, and the index as seen from where it came.
+    #[inline(always)]
+    fn upright(&self, wo: BsdfVec<Self>) -> (BsdfVec<Self>, RelativeIndex<C::Real>) {
+        if wo.z() < C::Real::ZERO {
+            (wo.flip_z(), RelativeIndex::from_below(self.eta))
+        } else {
+            (wo, RelativeIndex::from_above(self.eta))
+        }
+    }
 }
 
 impl<C: Spectrum> Bsdf for SmoothDielectric<C> {
@@ -75,11 +85,12 @@ impl<C: Spectrum> Bsdf for SmoothDielectric<C> {
     ) -> Option<Sample<C>> {
         let one = <C::Real as Real>::ONE;
         let below = wo.z() < C::Real::ZERO;
-        let (w, eta) = if below { (wo.flip_z(), one / self.eta) } else { (wo, self.eta) };
+        let (w, index) = self.upright(wo);
         if !above(w) {
             return None;
         }
-        let Refraction { reflectance, direction } = Refraction::new(w, eta);
+        let eta = index.eta();
+        let Refraction { reflectance, direction } = Refraction::new(w, index);
         let sample = match direction {
             Some(wi) if u_lobe >= reflectance => Sample {
                 wi,
@@ -104,13 +115,12 @@ impl<C: Spectrum> Bsdf for SmoothDielectric<C> {
     #[inline]
     fn albedo(&self, wo: BsdfVec<Self>) -> Option<C> {
         let one = <C::Real as Real>::ONE;
-        let below = wo.z() < C::Real::ZERO;
-        let (w, eta) = if below { (wo.flip_z(), one / self.eta) } else { (wo, self.eta) };
+        let (w, index) = self.upright(wo);
         if !above(w) {
             return Some(C::black());
         }
-        let r = Refraction::new(w, eta).reflectance;
-        let t = (one - r) / (eta * eta);
+        let r = Refraction::new(w, index).reflectance;
+        let t = (one - r) / (index.eta() * index.eta());
         Some(self.specular_reflectance.scale(r) + self.specular_transmittance.scale(t))
     }
 }

@@ -2,7 +2,7 @@
 
 use etendue_math::Real;
 
-use super::checked_cosine;
+use super::{RelativeIndex, checked_cosine};
 
 /// Unpolarised reflectance F of a smooth interface between dielectrics.
 ///
@@ -14,9 +14,10 @@ use super::checked_cosine;
 /// ```
 ///
 /// * `cos_i`: cosine c of the angle of incidence; see the [module](crate::fresnel).
-/// * `eta`: η = n(transmitted side) / n(incident side), positive and finite; 0 is returned outside.
+/// * `eta`: η = n(transmitted side) / n(incident side), positive, its square finite; 0 is returned outside.
 ///
-/// Returns F in `[0, 1]`; 0 for η = 1.
+/// Returns F in `[0, 1]`; 0 for η = 1. For c > 0 it is 1 exactly where [`refract`](super::refract)
+/// finds no direction.
 ///
 /// # Precision
 /// A few ulp times the condition of the problem: also for η → 1, where the textbook form
@@ -34,8 +35,8 @@ use super::checked_cosine;
 /// ```
 #[inline]
 pub fn dielectric<T: Real>(cos_i: T, eta: T) -> T {
-    let [rs, rp] = dielectric_polarized(cos_i, eta);
-    T::HALF * (rs + rp)
+    let index = checked_index(eta);
+    checked_cosine(cos_i).zip(index).map_or(T::ZERO, |(c, index)| index.reflectance(c))
 }
 
 /// Reflectances `[Rs, Rp]` for light polarised perpendicular and parallel to the plane of incidence.
@@ -46,31 +47,8 @@ pub fn dielectric<T: Real>(cos_i: T, eta: T) -> T {
 /// As [`dielectric`].
 #[inline]
 pub fn dielectric_polarized<T: Real>(cos_i: T, eta: T) -> [T; 2] {
-    let Some(c) = checked_cosine(cos_i).filter(|_| eta > T::ZERO && eta < T::INFINITY) else {
-        return [T::ZERO; 2];
-    };
-    if eta == T::ONE {
-        return [T::ZERO; 2]; // also at c = 0, where r would be 0/0
-    }
-    let k = (eta - T::ONE) * (eta + T::ONE);
-    scaled_cos_t(c, k).map_or([T::ONE; 2], |g| polarized_of_pair(c, g, eta))
-}
-
-/// [`dielectric`] where both angles are known: `g = η cos θt`, `c = cos θi`.
-#[inline(always)]
-pub(super) fn reflectance_of_pair<T: Real>(c: T, g: T, eta: T) -> T {
-    let [rs, rp] = polarized_of_pair(c, g, eta);
-    T::HALF * (rs + rp)
-}
-
-#[inline(always)]
-fn polarized_of_pair<T: Real>(c: T, g: T, eta: T) -> [T; 2] {
-    let k = (eta - T::ONE) * (eta + T::ONE);
-    let sum = g + c;
-    let r = k / (sum * sum);
-    let q = (c * sum - T::ONE) / (c * (k / sum) + T::ONE);
-    let rs = (r * r).min(T::ONE);
-    [rs, (rs * q * q).min(T::ONE)]
+    let index = checked_index(eta);
+    checked_cosine(cos_i).zip(index).map_or([T::ZERO; 2], |(c, index)| index.polarized(c))
 }
 
 /// Unpolarised transmittance `T = 1 − F`, without the cancellation where F → 1.
@@ -88,37 +66,14 @@ fn polarized_of_pair<T: Real>(c: T, g: T, eta: T) -> [T; 2] {
 /// Born and Wolf, Principles of Optics, section 1.5.3, eqs. 39 and 40.
 #[inline]
 pub fn dielectric_transmittance<T: Real>(cos_i: T, eta: T) -> T {
-    let Some(c) = checked_cosine(cos_i).filter(|_| eta > T::ZERO && eta < T::INFINITY) else {
-        return T::ZERO;
-    };
-    if eta == T::ONE {
-        return T::ONE;
-    }
-    scaled_cos_t(c, (eta - T::ONE) * (eta + T::ONE))
-        .map_or(T::ZERO, |g| transmittance_of_pair(c, g, eta))
+    let index = checked_index(eta);
+    checked_cosine(cos_i).zip(index).map_or(T::ZERO, |(c, index)| index.transmittance(c))
 }
 
-/// The transmittance where both angles are known: `g = η cos θt`, `c = cos θi`.
-///
-/// A direction pair and the half vector it defines obey Snell's law by construction; taking both
-/// cosines makes the value symmetric in the two and total internal reflection impossible.
+/// The index as seen from above, or `None` outside the domain.
 #[inline(always)]
-pub(crate) fn transmittance_of_pair<T: Real>(c: T, g: T, eta: T) -> T {
-    let s = c + g;
-    let p = eta * c + g / eta;
-    if !(s > T::ZERO && p > T::ZERO) {
-        return T::ZERO;
-    }
-    T::TWO * ((c / s) * (g / s) + (c / p) * (g / p)).min(T::HALF)
-}
-
-/// `g = η cos θt = √(k + c²)` with `k = η² − 1`, or `None` under total internal reflection.
-///
-/// Reflectance, transmittance and refraction all ask here, so they agree on where it sets in.
-#[inline(always)]
-pub(super) fn scaled_cos_t<T: Real>(c: T, k: T) -> Option<T> {
-    let g2 = k + c * c;
-    (g2 > T::ZERO).then(|| g2.sqrt())
+pub(super) fn checked_index<T: Real>(eta: T) -> Option<RelativeIndex<T>> {
+    (eta > T::ZERO && eta * eta < T::INFINITY).then(|| RelativeIndex::from_above(eta))
 }
 
 #[cfg(test)]

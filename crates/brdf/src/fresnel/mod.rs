@@ -7,14 +7,15 @@ mod average;
 mod conductor;
 mod dielectric;
 mod refraction;
+mod relative_index;
 mod schlick;
 
 pub use average::{dielectric_average, dielectric_average_fit, schlick_average};
 pub use conductor::conductor;
-pub(crate) use dielectric::transmittance_of_pair;
 pub use dielectric::{dielectric, dielectric_polarized, dielectric_transmittance};
-pub(crate) use refraction::Refraction;
+pub(crate) use refraction::{Refraction, refract_at};
 pub use refraction::{refract, refract_about};
+pub(crate) use relative_index::RelativeIndex;
 pub use schlick::{f0_from_ior, ior_from_f0, schlick};
 
 use etendue_math::Real;

@@ -2,7 +2,9 @@
 
 use etendue_math::{Real, Vector3};
 
-use super::dielectric::{reflectance_of_pair, scaled_cos_t};
+use super::RelativeIndex;
+use super::dielectric::checked_index;
+use super::relative_index::{product, sum};
 
 /// A smooth interface met by a ray: reflectance, and the refracted direction where there is one.
 ///
@@ -14,14 +16,19 @@ pub(crate) struct Refraction<V: Vector3> {
 }
 
 impl<V: Vector3> Refraction<V> {
-    /// `w` a unit vector above the surface, `eta` positive and finite.
+    /// `w` a unit vector above the surface.
     #[inline(always)]
-    pub(crate) fn new(w: V, eta: V::Scalar) -> Self {
-        match scaled_cos_t_of(w, V::Scalar::ONE, eta) {
+    pub(crate) fn new(w: V, index: RelativeIndex<V::Scalar>) -> Self {
+        let c = w.z().min(V::Scalar::ONE);
+        if index.is_matched() {
+            return Self { reflectance: V::Scalar::ZERO, direction: Some(-w) };
+        }
+        match index.scaled_cos_t(c) {
             None => Self { reflectance: V::Scalar::ONE, direction: None },
             Some(g) => Self {
-                reflectance: reflectance_of_pair(w.z().min(V::Scalar::ONE), g, eta),
-                direction: Some(V::new(-w.x(), -w.y(), -g) / eta),
+                reflectance: index.reflectance_of_pair(c, g),
+                // Of length η but for rounding, which a small η would amplify.
+                direction: V::new(-w.x(), -w.y(), -g).try_normalize(),
             },
         }
     }
@@ -30,14 +37,17 @@ impl<V: Vector3> Refraction<V> {
 /// The direction a ray leaves along after refraction at the surface `z = 0`.
 ///
 /// ```text
-/// wt = (−x / η, −y / η, −√((η − 1)(η + 1) + z²) / η)   for |w| = 1
+/// wt = normalize(−x, −y, −√((η − 1)(η + 1) + z²))   for |w| = 1
 /// ```
 ///
 /// * `w`: direction away from the surface on the incident side, `w.z > 0`. It need not be of unit
 ///   length: near the critical angle even the rounding of a normalisation would show.
 /// * `eta`: η = n(transmitted side) / n(incident side).
 ///
-/// Returns a unit vector below the surface; `None` under total internal reflection and outside the domain.
+/// Returns a unit vector below the surface, or along it within rounding of the critical angle; `None`
+/// under total internal reflection and outside the domain. Whether the reflection is total is
+/// decided by the rounded cosine (`w.z` where `|w|` is 1 to rounding, otherwise `w.z / |w|`), as
+/// [`dielectric`](super::dielectric) does: there is no direction exactly where F is 1.
 ///
 /// # Precision
 /// A few ulp of 1 in each component; near the critical angle too, where the root amplifies the
@@ -48,28 +58,24 @@ impl<V: Vector3> Refraction<V> {
 /// Snell's law.
 #[inline]
 pub fn refract<V: Vector3>(w: V, eta: V::Scalar) -> Option<V> {
-    let zero = V::Scalar::ZERO;
-    if !(w.z() > zero && eta > zero && eta < V::Scalar::INFINITY && w.is_finite()) {
+    let (zero, one) = (V::Scalar::ZERO, V::Scalar::ONE);
+    let squared = w.length_squared();
+    let index = checked_index(eta)?;
+    if !(w.z() > zero && squared >= V::Scalar::MIN_POSITIVE && squared < V::Scalar::INFINITY) {
         return None;
     }
-    let squared = w.length_squared();
-    let g = scaled_cos_t_of(w, squared, eta)?;
-    let t = w / squared.sqrt();
-    t.is_finite().then(|| V::new(-t.x(), -t.y(), -g) / eta)
-}
-
-/// `g = η cos θt` of a direction with the given squared length, or `None` under total internal reflection.
-#[inline(always)]
-fn scaled_cos_t_of<V: Vector3>(w: V, squared: V::Scalar, eta: V::Scalar) -> Option<V::Scalar> {
-    let one = V::Scalar::ONE;
-    let k = (eta - one) * (eta + one);
-    let g2 = k + w.z() * w.z() / squared;
-    // Above this g loses at most 4 bits; for η > 1 the sum has no negative term.
-    if g2.abs() > V::Scalar::lit(1.0 / 256.0) || k >= V::Scalar::ZERO {
-        return (g2 > V::Scalar::ZERO).then(|| g2.sqrt());
+    let unit = (squared - one).abs() <= V::Scalar::lit(4.0) * V::Scalar::EPSILON;
+    let length = if unit { one } else { squared.sqrt() };
+    let c = (w.z() / length).min(one);
+    if index.is_matched() {
+        return (-w).try_normalize();
     }
-    let g2 = critical_radicand(w, eta);
-    (g2 > V::Scalar::ZERO).then(|| g2.sqrt())
+    let mut g = index.scaled_cos_t(c)?;
+    // The rounded cosine has decided; of a small g the coordinates know more digits than it does.
+    if eta < one && g * g <= V::Scalar::lit(1.0 / 256.0) {
+        g = critical_radicand(w, eta).max(zero).sqrt();
+    }
+    V::new(-w.x(), -w.y(), -g * length).try_normalize()
 }
 
 /// `η² − (x² + y²) / |w|²` in twice the working precision.
@@ -82,15 +88,6 @@ fn scaled_cos_t_of<V: Vector3>(w: V, squared: V::Scalar, eta: V::Scalar) -> Opti
 /// T. Dekker, "A Floating-Point Technique for Extending the Available Precision", Numer. Math. 18, 1971.
 #[cold]
 fn critical_radicand<V: Vector3>(w: V, eta: V::Scalar) -> V::Scalar {
-    let product = |a: V::Scalar, b: V::Scalar| {
-        let high = a * b;
-        (high, a.mul_add(b, -high))
-    };
-    let sum = |a: V::Scalar, b: V::Scalar| {
-        let high = a + b;
-        let part = high - a;
-        (high, (a - (high - part)) + (b - part))
-    };
     let [(x, x_low), (y, y_low), (z, z_low)] = [w.x(), w.y(), w.z()].map(|c| product(c, c));
     let (s, s_error) = sum(x, y);
     let s_low = s_error + (x_low + y_low);
@@ -105,7 +102,7 @@ fn critical_radicand<V: Vector3>(w: V, eta: V::Scalar) -> V::Scalar {
 /// As [`refract`], at a facet with unit normal `h`.
 ///
 /// ```text
-/// wt = (h (c − g) − w) / η,  c = w·h,  g = √(k + c²),  c − g = −k / (g + c),  k = (η − 1)(η + 1)
+/// wt = normalize(h (c − g) − w),  c = w·h,  g = √(k + c²),  c − g = −k / (g + c),  k = (η − 1)(η + 1)
 /// ```
 ///
 /// `None` under total internal reflection and where `w·h` is not positive.
@@ -115,13 +112,24 @@ fn critical_radicand<V: Vector3>(w: V, eta: V::Scalar) -> V::Scalar {
 /// with the difference of cosines rewritten so that it does not cancel for η → 1.
 #[inline]
 pub fn refract_about<V: Vector3>(w: V, h: V, eta: V::Scalar) -> Option<V> {
-    let c = w.dot(h);
+    let (c, index) = (w.dot(h), checked_index(eta)?);
     if !(c > V::Scalar::ZERO) {
         return None;
     }
-    let k = (eta - V::Scalar::ONE) * (eta + V::Scalar::ONE);
-    let g = scaled_cos_t(c, k)?;
-    Some((h * (-k / (g + c)) - w) / eta)
+    refract_at(w, h, index, c, index.scaled_cos_t(c)?)
+}
+
+/// [`refract_about`] where both angles are known: `c = w·h`, `g = η cos θt`.
+#[inline(always)]
+pub(crate) fn refract_at<V: Vector3>(
+    w: V,
+    h: V,
+    index: RelativeIndex<V::Scalar>,
+    c: V::Scalar,
+    g: V::Scalar,
+) -> Option<V> {
+    // Of length η but for rounding, which a small η would amplify.
+    (h * index.cosine_difference(c, g) - w).try_normalize()
 }
 
 #[cfg(test)]
