@@ -13,7 +13,7 @@ use crate::camera::Camera;
 use crate::film::Film;
 use crate::geometry::{Geometry, SurfacePoint};
 use crate::light::{Light, LightId};
-use crate::material::{MaterialId, Materials, PreparedBsdf};
+use crate::material::{MaterialId, Materials, PreparedBsdf, Side};
 use crate::texture::Textures;
 
 pub use check::InvalidScene;
@@ -118,11 +118,11 @@ impl Scene {
         })
     }
 
-    /// The reflection model at a point, for directions in its shading frame.
+    /// The reflection model at a point looked at from one side, for directions in its shading frame.
     #[inline]
-    pub fn prepare(&self, point: &SurfacePoint) -> PreparedBsdf<'_> {
+    pub fn prepare(&self, point: &SurfacePoint, side: Side) -> PreparedBsdf<'_> {
         let material = self.surfaces[point.shape.0 as usize].material;
-        self.materials.prepare(material, &self.textures, point.uv)
+        self.materials.prepare(material, &self.textures, point.uv, side)
     }
 }
 

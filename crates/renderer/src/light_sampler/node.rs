@@ -1,4 +1,4 @@
-//! One node of the light tree in 32 bytes, and its importance to a receiver.
+//! One node of the light tree, and its importance to a receiver.
 
 use etendue_math::Real;
 use etendue_math::glam::Vec3;
@@ -6,18 +6,17 @@ use etendue_math::glam::Vec3;
 use super::cluster::{Cluster, Faces};
 use super::receiver::{Receiver, Sides};
 
-/// A cluster, compressed. Cosines are rounded towards wider cones, so that compression never makes
-/// an emitter invisible that is not.
+/// A cluster, with what its importance needs computed beforehand.
 #[derive(Clone, Copy, Debug)]
-#[repr(align(32))]
 pub(super) struct Node {
     centre: Vec3,
-    radius: f32,
+    radius_squared: f32,
+    axis: Vec3,
     power: f32,
-    /// Octahedral coordinates of the axis.
-    axis: [i16; 2],
-    cos_normals: i16,
-    cos_emission: i16,
+    /// Half angle θo of the cone of normals.
+    normals: Angle,
+    /// cos θe, beyond which nothing is emitted.
+    cos_emission: f32,
     link: u32,
 }
 
@@ -33,18 +32,16 @@ pub(super) enum Link {
 const EMITTER: u32 = 1 << 31;
 const BOTH_FACES: u32 = 1 << 30;
 const INDEX: u32 = BOTH_FACES - 1;
-const SCALE: f32 = i16::MAX as f32;
 
-/// Two children side by side: one cache line.
+/// Two children side by side.
 #[derive(Clone, Copy, Debug)]
-#[repr(align(64))]
 pub(super) struct Pair(pub(super) [Node; 2]);
 
 impl Node {
     /// How many emitters a tree can hold.
     pub(super) const MAX_EMITTERS: usize = INDEX as usize;
 
-    /// Compresses a cluster whose power is a share of the total, in (0, 1].
+    /// The node of a cluster whose power is a share of the total, in (0, 1].
     pub(super) fn new(cluster: &Cluster, link: Link) -> Self {
         let kind = match link {
             Link::Pair(index) => index,
@@ -53,11 +50,11 @@ impl Node {
         let faces = if cluster.faces == Faces::Both { BOTH_FACES } else { 0 };
         Self {
             centre: cluster.centre(),
-            radius: cluster.radius(),
+            radius_squared: cluster.radius().sqr(),
+            axis: cluster.normals.axis,
             power: cluster.power,
-            axis: octahedral(cluster.normals.axis),
-            cos_normals: rounded_down(cluster.normals.cos_spread),
-            cos_emission: rounded_down(cluster.cos_emission),
+            normals: Angle::from_cos(cluster.normals.cos_spread),
+            cos_emission: cluster.cos_emission,
             link: kind | faces,
         }
     }
@@ -91,19 +88,18 @@ impl Node {
         const GRAZING: f32 = 1e-3;
         let to_cluster = self.centre - receiver.position;
         let distance_squared = to_cluster.length_squared();
-        let radius_squared = self.radius * self.radius;
-        if distance_squared <= radius_squared || distance_squared < f32::MIN_POSITIVE {
-            return self.power / radius_squared.max(NEAREST);
+        if distance_squared <= self.radius_squared || distance_squared < f32::MIN_POSITIVE {
+            return self.power / self.radius_squared.max(NEAREST);
         }
-        let direction = to_cluster / distance_squared.sqrt();
-        let sin2_b = radius_squared / distance_squared;
+        let per_squared_distance = 1.0 / distance_squared;
+        let direction = to_cluster * per_squared_distance.sqrt();
+        let sin2_b = self.radius_squared * per_squared_distance;
         let bound = Angle { cos: (1.0 - sin2_b).safe_sqrt(), sin: sin2_b.sqrt() };
 
-        let cos_w = -direction.dot(self.axis());
+        let cos_w = -direction.dot(self.axis);
         let cos_w = if self.link & BOTH_FACES == 0 { cos_w } else { cos_w.abs() };
-        let normals = Angle::from_cos(f32::from(self.cos_normals) / SCALE);
-        let emission = Angle::from_cos(cos_w).minus(normals).minus(bound);
-        if emission.cos < f32::from(self.cos_emission) / SCALE - GRAZING {
+        let emission = Angle::from_cos(cos_w).minus(self.normals).minus(bound);
+        if emission.cos < self.cos_emission - GRAZING {
             return 0.0;
         }
         let cos_i = direction.dot(receiver.normal);
@@ -112,24 +108,15 @@ impl Node {
         if incident.cos < -GRAZING {
             return 0.0;
         }
-        self.power * emission.cos.max(GRAZING) * incident.cos.max(GRAZING)
-            / distance_squared.max(NEAREST)
-    }
-
-    fn axis(&self) -> Vec3 {
-        let [x, y] = self.axis.map(|c| f32::from(c) / SCALE);
-        let z = 1.0 - x.abs() - y.abs();
-        let fold = (-z).max(0.0);
-        let v = Vec3::new(x - fold.copysign(x), y - fold.copysign(y), z);
-        v / v.length()
+        self.power * emission.cos.max(GRAZING) * incident.cos.max(GRAZING) * per_squared_distance
     }
 }
 
-/// The smallest squared distance that counts: keeps importances finite.
+/// The smallest squared radius that counts: keeps importances finite.
 const NEAREST: f32 = 1e-30;
 
 /// An angle in [0, π] by its sine and cosine.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 struct Angle {
     cos: f32,
     sin: f32,
@@ -154,52 +141,12 @@ impl Angle {
     }
 }
 
-/// The cosine of an angle at least 10⁻⁴ larger: what 16 bits of the axis can be wrong by.
-fn rounded_down(cos: f32) -> i16 {
-    let sin = (1.0 - cos * cos).safe_sqrt();
-    // cos(θ + 10⁻⁴), or −1 where that passes π.
-    let wider = if cos < -0.9999 { -1.0 } else { cos - 1e-4 * sin };
-    (wider.clamp(-1.0, 1.0) * SCALE).floor() as i16
-}
-
-/// Octahedral coordinates of a unit vector.
-///
-/// # Source
-/// Meyer et al., "On Floating-Point Normal Vectors", EGSR 2010.
-fn octahedral(v: Vec3) -> [i16; 2] {
-    let sum = v.x.abs() + v.y.abs() + v.z.abs();
-    let (x, y) = (v.x / sum, v.y / sum);
-    let (x, y) = if v.z >= 0.0 {
-        (x, y)
-    } else {
-        ((1.0 - y.abs()).copysign(x), (1.0 - x.abs()).copysign(y))
-    };
-    [x, y].map(|c| (c * SCALE).round() as i16)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     fn receiver(position: Vec3, normal: Vec3, sides: Sides) -> Receiver {
         Receiver { position, normal, sides }
-    }
-
-    #[test]
-    fn a_pair_of_nodes_is_one_cache_line() {
-        assert_eq!((size_of::<Node>(), size_of::<Pair>()), (32, 64));
-    }
-
-    #[test]
-    fn compressed_axes_are_within_a_ten_thousandth() {
-        for i in 0..1000_u32 {
-            let t = i as f32 * 0.37;
-            let v = Vec3::new(Real::sin(t), Real::cos(1.7 * t), Real::sin(2.3 * t + 1.0));
-            let Some(v) = v.try_normalize() else { continue };
-            let node = Node::new(&Cluster::patch(Vec3::ZERO, 0.1, v, 1.0), Link::Emitter(0));
-            // Half a step of 2⁻¹⁵ in two coordinates, stretched at most √3 by the octahedron.
-            assert!((node.axis() - v).length() < 1e-4, "{v}");
-        }
     }
 
     #[test]

@@ -10,7 +10,7 @@ use etendue_math::glam::Vec3;
 use etendue_sampling::{Decision, Dimension, Sampler};
 use etendue_scene::geometry::{Ray, SurfacePoint};
 use etendue_scene::light::Light;
-use etendue_scene::material::PreparedBsdf;
+use etendue_scene::material::{PreparedBsdf, Side};
 use etendue_scene::scene::PathSettings;
 use etendue_scene::{Color, Scene};
 
@@ -189,8 +189,8 @@ impl<'a> PathTracer<'a> {
     }
 
     fn vertex(&self, depth: u16, point: SurfacePoint, direction: Vec3) -> Vertex<'a> {
-        let bsdf = self.scene.prepare(&point);
         let wo = point.shading.to_local(-direction);
+        let bsdf = self.scene.prepare(&point, Side::of(wo));
         let normal = if wo.z < 0.0 { -point.shading.n } else { point.shading.n };
         let sides = if bsdf.lobes().transmission { Sides::Both } else { Sides::Front };
         let receiver = Receiver { position: point.position, normal, sides };

@@ -2,11 +2,11 @@
 
 use alloc::vec::Vec;
 
+use etendue_math::Vector3;
 use etendue_math::glam::{Vec2, Vec3};
-use etendue_math::{Frame, Vector3};
 
 use super::surface::LocalSurface;
-use super::triangle::{self, Corners};
+use super::triangle::{Corners, Facet};
 use super::{Aabb, ShapeSample, Transform};
 
 /// A triangle mesh whose indices and coordinates have been checked.
@@ -19,6 +19,8 @@ pub struct TriangleMesh {
     normals: Vec<Vec3>,
     uvs: Vec<Vec2>,
     triangles: Vec<[u32; 3]>,
+    /// One per triangle, its normal on the front side.
+    facets: Vec<Facet>,
     flipped: bool,
 }
 
@@ -85,7 +87,10 @@ impl TriangleMesh {
                 return Err(MeshError::IndexOutOfRange { triangle, vertex, vertices });
             }
         }
-        Ok(Self { positions, normals, uvs, triangles, flipped: false })
+        let mut mesh =
+            Self { positions, normals, uvs, triangles, facets: Vec::new(), flipped: false };
+        mesh.compute_facets();
+        Ok(mesh)
     }
 
     /// Vertex positions.
@@ -113,12 +118,16 @@ impl TriangleMesh {
     /// # Errors
     /// As [`new`](Self::new).
     pub fn with_normals(self, normals: Vec<Vec3>) -> Result<Self, MeshError> {
+        let flipped = self.flipped;
         let mesh = Self::new(self.positions, normals, self.uvs, self.triangles)?;
-        Ok(Self { flipped: self.flipped, ..mesh })
+        Ok(if flipped { mesh.flipped() } else { mesh })
     }
 
     /// The same mesh with front and back exchanged.
-    pub fn flipped(self) -> Self {
+    pub fn flipped(mut self) -> Self {
+        for facet in &mut self.facets {
+            facet.normal = -facet.normal;
+        }
         Self { flipped: !self.flipped, ..self }
     }
 
@@ -138,13 +147,42 @@ impl TriangleMesh {
         }
         match self.positions.iter().position(|p| !p.is_finite()) {
             Some(vertex) => Err(MeshError::NotFinite { attribute: "position", vertex }),
-            None => Ok(self),
+            None => {
+                self.compute_facets();
+                Ok(self)
+            }
         }
     }
 
+    fn compute_facets(&mut self) {
+        let front = |&[i, j, k]: &[u32; 3]| {
+            let indices = [i as usize, j as usize, k as usize];
+            let mut facet = Facet::of(&indices.map(|v| self.positions[v]));
+            let outward: Vec3 = match self.normals.as_slice() {
+                [] => facet.normal,
+                // One decision per triangle: the front must not change within it.
+                normals => indices.iter().map(|&v| normals[v]).sum(),
+            };
+            let reversed = facet.normal.dot(outward) < 0.0;
+            if reversed != self.flipped {
+                facet.normal = -facet.normal;
+            }
+            facet
+        };
+        self.facets = self.triangles.iter().map(front).collect();
+    }
+
+    /// The facet of a triangle, `triangle < self.triangles().len()`.
+    #[inline]
+    pub(crate) fn facet(&self, triangle: u32) -> &Facet {
+        &self.facets[triangle as usize]
+    }
+
     /// The corners of a triangle, `triangle < self.triangles().len()`.
+    #[inline]
     pub(crate) fn corners(&self, triangle: u32) -> Corners {
-        self.triangles[triangle as usize].map(|v| self.positions[v as usize])
+        let [i, j, k] = self.triangles[triangle as usize];
+        [self.positions[i as usize], self.positions[j as usize], self.positions[k as usize]]
     }
 
     pub(crate) fn bounds(&self) -> Aabb {
@@ -163,67 +201,79 @@ impl TriangleMesh {
     /// # Source
     /// Mitsuba 3, `Mesh::compute_surface_interaction`. There, vertex normals on the other side of
     /// the geometric one leave the two at odds; here the geometric normal follows.
-    pub(crate) fn surface(&self, triangle: u32, [b1, b2]: [f32; 2]) -> LocalSurface {
-        let indices = self.triangles[triangle as usize].map(|v| v as usize);
-        let corners = indices.map(|v| self.positions[v]);
-        let (position, error) = triangle::point(&corners, b1, b2);
-        let winding = triangle::normal(&corners).unwrap_or(Vec3::Z);
-        let b0 = 1.0 - b1 - b2;
-        let (mut normal, mut shading_normal) = (winding, winding);
-        if !self.normals.is_empty() {
-            let [n0, n1, n2] = indices.map(|v| self.normals[v]);
-            // One decision per triangle: the front must not change within it.
-            if winding.dot(n0 + n1 + n2) < 0.0 {
-                normal = -winding;
-            }
-            shading_normal = Vector3::try_normalize(n0 * b0 + n1 * b1 + n2 * b2).unwrap_or(normal);
-        }
-        let (mut uv, mut tangents) = ([b1, b2], None);
-        if !self.uvs.is_empty() {
-            let [t0, t1, t2] = indices.map(|v| self.uvs[v]);
-            uv = (t0 * b0 + t1 * b1 + t2 * b2).to_array();
-            let (d1, d2) = (t1 - t0, t2 - t0);
-            let (e1, e2) = (corners[1] - corners[0], corners[2] - corners[0]);
-            let scale = 1.0 / (d1.x * d2.y - d1.y * d2.x);
-            let du = (e1 * d2.y - e2 * d1.y) * scale;
-            let dv = (e2 * d1.x - e1 * d2.x) * scale;
-            tangents = (du.is_finite() && dv.is_finite()).then_some((du, dv));
-        }
-        let (dp_du, dp_dv) = tangents.unwrap_or_else(|| {
-            let frame = Frame::<f32>::from_normal(normal);
-            (frame.s, frame.t)
-        });
-        let side = if self.flipped { -1.0 } else { 1.0 };
+    #[inline]
+    pub(crate) fn surface(&self, triangle: u32, barycentric: [f32; 2]) -> LocalSurface {
+        let [b1, b2] = barycentric;
+        let facet = self.facet(triangle);
+        let corners = self.corners(triangle);
+        let (position, error) = facet.point(&corners, b1, b2);
         LocalSurface {
             position,
             error,
-            normal: normal * side,
-            shading_normal: shading_normal * side,
-            uv,
-            dp_du,
-            dp_dv,
+            normal: facet.normal,
+            shading_normal: self.shading_normal(triangle, barycentric).unwrap_or(facet.normal),
+            uv: self.uv(triangle, barycentric),
+            tangents: self.tangents(triangle, &corners),
             primitive: triangle,
-            barycentric: [b1, b2],
+            barycentric,
         }
     }
 
-    /// The same point as a sample of the triangle's area.
-    pub(crate) fn at(&self, triangle: u32, barycentric: [f32; 2]) -> ShapeSample {
-        let s = self.surface(triangle, barycentric);
-        let area = triangle::area(&self.corners(triangle));
-        ShapeSample {
-            position: s.position,
-            error: s.error,
-            normal: s.normal,
-            uv: s.uv,
-            pdf_area: if area > 0.0 { 1.0 / area } else { 0.0 },
+    #[inline]
+    fn shading_normal(&self, triangle: u32, [b1, b2]: [f32; 2]) -> Option<Vec3> {
+        let [n0, n1, n2] = corner_values(&self.normals, self.triangles[triangle as usize])?;
+        let normal = Vector3::try_normalize(n0 * (1.0 - b1 - b2) + n1 * b1 + n2 * b2)?;
+        Some(if self.flipped { -normal } else { normal })
+    }
+
+    #[inline]
+    fn uv(&self, triangle: u32, [b1, b2]: [f32; 2]) -> [f32; 2] {
+        match corner_values(&self.uvs, self.triangles[triangle as usize]) {
+            Some([t0, t1, t2]) => (t0 * (1.0 - b1 - b2) + t1 * b1 + t2 * b2).to_array(),
+            None => [b1, b2],
         }
     }
+
+    #[inline]
+    fn tangents(&self, triangle: u32, [v0, v1, v2]: &Corners) -> Option<[Vec3; 2]> {
+        let [t0, t1, t2] = corner_values(&self.uvs, self.triangles[triangle as usize])?;
+        let (d1, d2) = (t1 - t0, t2 - t0);
+        let (e1, e2) = (*v1 - *v0, *v2 - *v0);
+        let scale = 1.0 / (d1.x * d2.y - d1.y * d2.x);
+        let du = (e1 * d2.y - e2 * d1.y) * scale;
+        let dv = (e2 * d1.x - e1 * d2.x) * scale;
+        (du.is_finite() && dv.is_finite()).then_some([du, dv])
+    }
+
+    /// The same point as a sample of the triangle's area.
+    #[inline]
+    pub(crate) fn at(&self, triangle: u32, barycentric: [f32; 2]) -> ShapeSample {
+        let [b1, b2] = barycentric;
+        let facet = self.facet(triangle);
+        let (position, error) = facet.point(&self.corners(triangle), b1, b2);
+        ShapeSample {
+            position,
+            error,
+            normal: facet.normal,
+            uv: self.uv(triangle, barycentric),
+            pdf_area: if facet.area > 0.0 { 1.0 / facet.area } else { 0.0 },
+        }
+    }
+}
+
+/// What a mesh knows of the three corners; `None` for a mesh that knows nothing of the kind.
+#[inline]
+fn corner_values<T: Copy>(values: &[T], [i, j, k]: [u32; 3]) -> Option<[T; 3]> {
+    if values.is_empty() {
+        return None;
+    }
+    Some([values[i as usize], values[j as usize], values[k as usize]])
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::ShapeId;
     use alloc::vec;
 
     #[test]
@@ -278,9 +328,11 @@ mod tests {
         let uvs = vec![Vec2::ZERO, Vec2::new(0.0, 0.5), Vec2::new(-2.0, 0.0)];
         let p = one(vec![], uvs).surface(0, [0.5, 0.25]);
         assert_eq!(p.uv, [-0.5, 0.25]);
-        assert_eq!((p.dp_du, p.dp_dv), (Vec3::Y * -0.5, Vec3::X * 2.0));
+        assert_eq!(p.tangents, Some([Vec3::Y * -0.5, Vec3::X * 2.0]));
         // All three vertices at one place of the texture: any tangents will do.
         let p = one(vec![], vec![Vec2::ONE; 3]).surface(0, [0.5, 0.25]);
+        assert_eq!(p.tangents, None);
+        let p = p.on(ShapeId(0));
         assert!(p.dp_du.is_finite() && p.dp_du.dot(p.normal) == 0.0);
     }
 }

@@ -3,7 +3,7 @@
 use etendue_math::glam::Vec3;
 
 use super::surface::LocalSurface;
-use super::triangle::{self, Corners};
+use super::triangle::{Corners, Facet};
 use super::{Aabb, ShapeError, ShapeSample, Transform};
 
 /// The square `[−1, 1]²` in the plane z = 0, placed by a transform; a parallelogram where that
@@ -13,6 +13,8 @@ pub struct Rectangle {
     /// Corners at (u, v) = (0, 0), (1, 0), (1, 1), (0, 1).
     corners: [Vec3; 4],
     normal: Vec3,
+    /// The two triangles that rays are tested against.
+    halves: [Facet; 2],
 }
 
 impl Rectangle {
@@ -26,7 +28,8 @@ impl Rectangle {
         if corners.iter().any(|c| !c.is_finite()) {
             return Err(ShapeError::OutOfRange);
         }
-        Ok(Self { corners, normal: transform.normal(Vec3::Z) })
+        let halves = [0, 1].map(|half| Facet::of(&half_of(&corners, half)));
+        Ok(Self { corners, normal: transform.normal(Vec3::Z), halves })
     }
 
     /// The same rectangle with front and back exchanged.
@@ -41,16 +44,16 @@ impl Rectangle {
 
     /// The area.
     pub fn area(&self) -> f32 {
-        triangle::area(&self.half(0).0) + triangle::area(&self.half(1).0)
+        self.halves[0].area + self.halves[1].area
     }
 
     /// One of the two triangles that rays are tested against, and its texture coordinates.
     pub(crate) fn half(&self, half: u32) -> (Corners, [[f32; 2]; 3]) {
-        let [a, b, c, d] = self.corners;
-        match half {
-            0 => ([a, b, c], [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]]),
-            _ => ([a, c, d], [[0.0, 0.0], [1.0, 1.0], [0.0, 1.0]]),
-        }
+        let uvs = match half {
+            0 => [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]],
+            _ => [[0.0, 0.0], [1.0, 1.0], [0.0, 1.0]],
+        };
+        (half_of(&self.corners, half), uvs)
     }
 
     pub(crate) fn bounds(&self) -> Aabb {
@@ -59,7 +62,7 @@ impl Rectangle {
 
     pub(crate) fn surface(&self, half: u32, [b1, b2]: [f32; 2]) -> LocalSurface {
         let (corners, [uv0, uv1, uv2]) = self.half(half);
-        let (position, error) = triangle::point(&corners, b1, b2);
+        let (position, error) = self.halves[usize::from(half != 0)].point(&corners, b1, b2);
         let b0 = 1.0 - b1 - b2;
         LocalSurface {
             position,
@@ -67,8 +70,7 @@ impl Rectangle {
             normal: self.normal,
             shading_normal: self.normal,
             uv: core::array::from_fn(|i| b0 * uv0[i] + b1 * uv1[i] + b2 * uv2[i]),
-            dp_du: self.corners[1] - self.corners[0],
-            dp_dv: self.corners[3] - self.corners[0],
+            tangents: Some([self.corners[1] - self.corners[0], self.corners[3] - self.corners[0]]),
             primitive: 0,
             barycentric: [b1, b2],
         }
@@ -85,4 +87,9 @@ impl Rectangle {
             pdf_area: 1.0 / self.area(),
         }
     }
+}
+
+/// One of the two triangles.
+fn half_of([a, b, c, d]: &[Vec3; 4], half: u32) -> Corners {
+    if half == 0 { [*a, *b, *c] } else { [*a, *c, *d] }
 }

@@ -90,7 +90,7 @@ impl Shape {
             return 0.0;
         }
         match self {
-            Self::Mesh(mesh) => triangle::area(&mesh.corners(primitive)),
+            Self::Mesh(mesh) => mesh.facet(primitive).area,
             Self::Sphere(s) => s.area(),
             Self::Rectangle(s) => s.area(),
             Self::Disk(s) => s.area(),

@@ -40,8 +40,8 @@ pub(crate) struct LocalSurface {
     pub(crate) normal: Vec3,
     pub(crate) shading_normal: Vec3,
     pub(crate) uv: [f32; 2],
-    pub(crate) dp_du: Vec3,
-    pub(crate) dp_dv: Vec3,
+    /// `∂p/∂u` and `∂p/∂v`, where the shape has texture coordinates.
+    pub(crate) tangents: Option<[Vec3; 2]>,
     pub(crate) primitive: u32,
     pub(crate) barycentric: [f32; 2],
 }
@@ -55,21 +55,28 @@ impl LocalSurface {
             error: t.round_trip_error(self.position, self.error, position),
             normal: t.normal(self.normal),
             shading_normal: t.normal(self.shading_normal),
-            dp_du: t.vector(self.dp_du),
-            dp_dv: t.vector(self.dp_dv),
+            tangents: self.tangents.map(|[du, dv]| [t.vector(du), t.vector(dv)]),
             ..self
         }
     }
 
+    #[inline]
     pub(crate) fn on(self, shape: ShapeId) -> SurfacePoint {
+        let (shading, [dp_du, dp_dv]) = match self.tangents {
+            Some([du, dv]) => (Frame::from_normal_and_tangent(self.shading_normal, du), [du, dv]),
+            None => {
+                let frame = Frame::from_normal(self.shading_normal);
+                (frame, [frame.s, frame.t])
+            }
+        };
         SurfacePoint {
             position: self.position,
             error: self.error,
             normal: self.normal,
-            shading: Frame::from_normal_and_tangent(self.shading_normal, self.dp_du),
+            shading,
             uv: self.uv,
-            dp_du: self.dp_du,
-            dp_dv: self.dp_dv,
+            dp_du,
+            dp_dv,
             shape,
             primitive: self.primitive,
             barycentric: self.barycentric,

@@ -16,7 +16,7 @@ use etendue_brdf::{
 };
 
 pub use model::Model;
-pub use prepared::PreparedBsdf;
+pub use prepared::{PreparedBsdf, Side};
 
 use crate::texture::TextureId;
 

@@ -75,7 +75,6 @@ macro_rules! forward_bsdf {
         }
     };
 }
-pub(super) use forward_bsdf;
 
 forward_bsdf!(
     Model: Lambert,

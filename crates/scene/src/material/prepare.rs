@@ -3,13 +3,13 @@
 use etendue_brdf::{
     Alpha, ComplexIor, Lambert, Microfacets, Null, OrenNayar, OrenNayarQualitative, Plastic,
     Reflectance, RoughConductor, RoughDielectric, RoughPlastic, Sigma, SmoothConductor,
-    SmoothDielectric, ThinDielectric, TwoSided,
+    SmoothDielectric, ThinDielectric,
 };
 
-use super::prepared::Sides;
+use super::prepared::Placed;
 use super::{
     ConductorIndex, Material, MaterialId, Materials, Model, OrenNayarForm, PlasticSurface,
-    PreparedBsdf, Roughness,
+    PreparedBsdf, Roughness, Side,
 };
 use crate::Color;
 use crate::texture::{TextureId, Textures};
@@ -51,11 +51,18 @@ impl At<'_> {
 }
 
 impl Materials {
-    /// The reflection model of a material where the texture coordinates are `uv`.
+    /// The reflection model of a material where the texture coordinates are `uv`, looked at from one
+    /// side.
     ///
     /// A material that does not exist is [`Material::Null`].
     #[inline]
-    pub fn prepare(&self, id: MaterialId, textures: &Textures, uv: [f32; 2]) -> PreparedBsdf<'_> {
+    pub fn prepare(
+        &self,
+        id: MaterialId,
+        textures: &Textures,
+        uv: [f32; 2],
+        side: Side,
+    ) -> PreparedBsdf<'_> {
         let at = At { textures, uv };
         let mut material = self.get(id);
         let mut opacity = 1.0;
@@ -64,18 +71,15 @@ impl Materials {
             opacity *= textures.value(texture, uv).min(1.0);
             material = self.get(nested);
         }
-        let sides = match material {
-            Some(&Material::TwoSided { front, back }) => {
-                let front_model = model(self.get(front), at);
-                Sides::Two(if front == back {
-                    TwoSided::same(front_model)
-                } else {
-                    TwoSided::new(front_model, model(self.get(back), at))
-                })
-            }
-            material => Sides::Model(model(material, at)),
-        };
-        PreparedBsdf::new(sides, opacity)
+        let mut placed_on = Side::Front;
+        if let Some(&Material::TwoSided { front, back }) = material {
+            placed_on = side;
+            material = self.get(match side {
+                Side::Front => front,
+                Side::Back => back,
+            });
+        }
+        PreparedBsdf::new(Placed { model: model(material, at), front: placed_on }, opacity)
     }
 }
 

@@ -28,8 +28,9 @@ impl Studio {
         self.add(Material::Diffuse { reflectance })
     }
 
-    fn at(&self, id: MaterialId) -> PreparedBsdf<'_> {
-        self.materials.prepare(id, &self.textures, [0.5; 2])
+    /// The model looked at from `wo`.
+    fn at(&self, id: MaterialId, wo: Vec3) -> PreparedBsdf<'_> {
+        self.materials.prepare(id, &self.textures, [0.5; 2], Side::of(wo))
     }
 }
 
@@ -96,8 +97,8 @@ fn every_kind(s: &mut Studio) -> Vec<MaterialId> {
 fn every_kind_of_material_samples_what_it_evaluates() {
     let mut s = Studio::new();
     for id in every_kind(&mut s) {
-        let bsdf = s.at(id);
         for (wo, i) in [UP, DOWN].into_iter().flat_map(|wo| (0..32_u8).map(move |i| (wo, i))) {
+            let bsdf = s.at(id, wo);
             let x = (f32::from(i) + 0.5) / 32.0;
             let u = [x, (f32::from(i) * 0.618).fract()];
             let Some(sample) = bsdf.sample(wo, x, u) else { continue };
@@ -121,11 +122,11 @@ fn two_sided_materials_have_a_back_and_others_are_black_there() {
     let (light, dark) = (s.diffuse(0.8), s.diffuse(0.2));
     let both = s.add(Material::TwoSided { front: light, back: dark });
     let same = s.add(Material::TwoSided { front: light, back: light });
-    let albedo = |s: &Studio, id, wo| s.at(id).albedo(wo).map(|c| c.r);
+    let albedo = |s: &Studio, id, wo| s.at(id, wo).albedo(wo).map(|c| c.r);
     assert_eq!([albedo(&s, both, UP), albedo(&s, both, DOWN)], [Some(0.8), Some(0.2)]);
     assert_eq!(albedo(&s, same, DOWN), Some(0.8));
     assert_eq!(albedo(&s, light, DOWN), Some(0.0));
-    assert_eq!(s.at(both).eval(UP, DOWN), Color::black());
+    assert_eq!(s.at(both, UP).eval(UP, DOWN), Color::black());
 }
 
 #[test]
@@ -136,18 +137,18 @@ fn masks_let_light_pass_and_multiply() {
     let once = s.add(Material::Mask { opacity: half, nested: paper });
     let twice = s.add(Material::Mask { opacity: half, nested: once });
     let f = 0.8 * f32::FRAC_1_PI;
-    assert_eq!(s.at(once).eval(UP, UP).r, 0.5 * f);
-    assert_eq!(s.at(twice).eval(UP, UP).r, 0.25 * f);
-    let passed = s.at(twice).sample(DOWN, 0.9, [0.5; 2]).expect("it is passed");
+    assert_eq!(s.at(once, UP).eval(UP, UP).r, 0.5 * f);
+    assert_eq!(s.at(twice, UP).eval(UP, UP).r, 0.25 * f);
+    let passed = s.at(twice, DOWN).sample(DOWN, 0.9, [0.5; 2]).expect("it is passed");
     assert_eq!((passed.wi, passed.density), (-DOWN, Density::Delta(0.75)));
-    assert!(s.at(once).lobes().delta && !s.at(paper).lobes().delta);
+    assert!(s.at(once, UP).lobes().delta && !s.at(paper, UP).lobes().delta);
 }
 
 #[test]
 fn values_outside_their_domain_are_moved_into_it() {
     let mut s = Studio::new();
     let bright = s.diffuse(1.5);
-    assert_eq!(s.at(bright).albedo(UP), Some(Color::white()));
+    assert_eq!(s.at(bright, UP).albedo(UP), Some(Color::white()));
     let (zero, white) = (s.grey(0.0), s.grey(1.0));
     let roughness = Roughness {
         distribution: Distribution::Ggx,
@@ -160,7 +161,7 @@ fn values_outside_their_domain_are_moved_into_it() {
         roughness: Some(roughness),
         specular_reflectance: white,
     });
-    let sample = s.at(mirror).sample(UP, 0.5, [0.5; 2]).expect("a mirror reflects");
+    let sample = s.at(mirror, UP).sample(UP, 0.5, [0.5; 2]).expect("a mirror reflects");
     // α = 10⁻⁴: within a few of it of the mirror direction, and all of the light.
     assert!((sample.wi - Vec3::new(-0.6, 0.0, 0.8)).length() < 1e-3);
     assert!((sample.weight.r - 1.0).abs() < 1e-3);
@@ -182,7 +183,7 @@ fn equal_indices_are_invisible_even_when_rough() {
         specular_reflectance: white,
         specular_transmittance: white,
     });
-    let sample = s.at(air).sample(UP, 0.5, [0.5; 2]).expect("light passes");
+    let sample = s.at(air, UP).sample(UP, 0.5, [0.5; 2]).expect("light passes");
     assert!((sample.wi + UP).length() < 1e-6); // one refraction's rounding
     assert_eq!((sample.weight, sample.density), (Color::white(), Density::Delta(1.0)));
 }

@@ -159,13 +159,13 @@ fn gaussian<'a>(
     Ok(ReconstructionFilter::Gaussian { stddev: width(reader, "stddev", 0.5)? })
 }
 
-/// Mitsuba calls the two parameters `A` and `B` since version 2, as we do; version 0.6 used `B`, `C`.
+/// `B` (⅓), `C` (⅓). Mitsuba 3's documentation calls them `A` and `B`; its code does not.
 fn mitchell<'a>(
     reader: &mut PluginReader<'a>,
     _: &mut Context<'a>,
 ) -> Result<ReconstructionFilter, SceneError> {
-    let b = reader.float("A")?.unwrap_or(1.0 / 3.0) as f32;
-    let c = reader.float("B")?.unwrap_or(1.0 / 3.0) as f32;
+    let b = reader.float("B")?.unwrap_or(1.0 / 3.0) as f32;
+    let c = reader.float("C")?.unwrap_or(1.0 / 3.0) as f32;
     Ok(ReconstructionFilter::Mitchell { b, c })
 }
 

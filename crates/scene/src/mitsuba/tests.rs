@@ -277,6 +277,23 @@ fn sensors_bring_film_filter_and_sampler() {
 }
 
 #[test]
+fn mitchell_and_netravali_call_their_parameters_b_and_c() {
+    let filter = |parameters: &str| {
+        let content = format!(
+            "<sensor type=\"perspective\"><film type=\"hdrfilm\">
+            <rfilter type=\"mitchell\">{parameters}</rfilter></film></sensor>"
+        );
+        load(&content).expect("a filter").scene.film.filter
+    };
+    let third = 1.0 / 3.0;
+    assert_eq!(filter(""), ReconstructionFilter::Mitchell { b: third, c: third });
+    let b = filter("<float name=\"B\" value=\"0.75\"/>");
+    assert_eq!(b, ReconstructionFilter::Mitchell { b: 0.75, c: third });
+    let c = filter("<float name=\"C\" value=\"0.75\"/>");
+    assert_eq!(c, ReconstructionFilter::Mitchell { b: third, c: 0.75 });
+}
+
+#[test]
 fn sensors_that_see_nothing_are_refused() {
     let sensor = |content: &str| format!("<sensor type=\"perspective\">\n{content}</sensor>");
     let film = |content: &str| sensor(&format!("<film type=\"hdrfilm\">\n{content}</film>"));

@@ -269,7 +269,7 @@ fn a_material_is_looked_up_where_the_surface_is_hit() {
     scene.surfaces[0].material = material.expect("a simple material");
     let point = floor(&scene);
     for (uv, albedo) in [([0.1, 0.1], 0.25), ([0.6, 0.1], 0.75)] {
-        let bsdf = scene.prepare(&SurfacePoint { uv, ..point });
+        let bsdf = scene.prepare(&SurfacePoint { uv, ..point }, Side::Front);
         assert_eq!(bsdf.albedo(Vec3::Z), Some(Color::new(albedo, albedo, albedo)));
     }
 }
