@@ -2,6 +2,12 @@
 //!
 //! Only this crate prints, parses arguments and exits. Each subcommand is a file in `commands`.
 
+#![allow(
+    clippy::std_instead_of_alloc,
+    clippy::std_instead_of_core,
+    reason = "a program for hosts with an operating system"
+)]
+
 use std::panic;
 use std::process::ExitCode;
 

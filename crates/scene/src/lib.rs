@@ -28,10 +28,10 @@ mod error;
 
 pub use diagnosis::Diagnosis;
 #[cfg(feature = "std")]
-pub use mitsuba::{LoadOptions, LoadedScene, load_scene};
-#[cfg(feature = "std")]
 pub use error::{ErrorKind, Location, SceneError, Warning};
 pub use light::{EmissionSides, Light, LightBounds, LightId, LightSample};
+#[cfg(feature = "std")]
+pub use mitsuba::{LoadOptions, LoadedScene, load_scene};
 pub use scene::{PathSettings, SamplerKind, SamplingSettings, Scene, SceneParts, SurfaceInfo};
 
 /// Linear RGB in the renderer's precision.

@@ -56,7 +56,10 @@ fn print(comparison: &Comparison) {
     println!("mean difference  {:+.4} %", 100.0 * comparison.mean_difference);
     println!("max difference   {:.6e}", comparison.max_difference);
     if comparison.non_finite_pixels > 0 {
-        println!("non-finite       {} pixels, left out of the figures", comparison.non_finite_pixels);
+        println!(
+            "non-finite       {} pixels, left out of the figures",
+            comparison.non_finite_pixels
+        );
     }
 }
 

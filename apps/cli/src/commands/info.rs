@@ -2,10 +2,10 @@
 
 use std::collections::BTreeMap;
 
+use etendue_scene::Scene;
 use etendue_scene::geometry::Shape;
 use etendue_scene::light::Light;
 use etendue_scene::material::Material;
-use etendue_scene::Scene;
 
 use super::scene_arguments::{SceneArguments, load};
 use crate::failure::{Exit, Failure};

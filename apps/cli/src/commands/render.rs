@@ -126,11 +126,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     })
 }
 
-fn draw(
-    arguments: &Arguments,
-    scene: &Scene,
-    interrupt: &Interrupt,
-) -> Result<Rendering, Failure> {
+fn draw(arguments: &Arguments, scene: &Scene, interrupt: &Interrupt) -> Result<Rendering, Failure> {
     let settings = RenderSettings {
         threads: arguments.threads.map_or(0, usize::from),
         ..RenderSettings::of_scene(scene)
@@ -223,7 +219,8 @@ impl Report<'_> {
 }
 
 fn numbers<const N: usize>(text: &str, separator: char) -> Option<[u32; N]> {
-    let parsed: Vec<u32> = text.split(separator).map(|t| t.trim().parse().ok()).collect::<Option<_>>()?;
+    let parsed: Vec<u32> =
+        text.split(separator).map(|t| t.trim().parse().ok()).collect::<Option<_>>()?;
     parsed.try_into().ok()
 }
 

@@ -27,9 +27,10 @@ pub(super) fn encode(
     metadata: &Metadata,
 ) -> EncodeResult {
     let [width, height] = picture.size().map(|n| n as usize);
-    let at = |position: Vec2<usize>| picture.pixels()[position.y() * width + position.x()].to_array();
-    let mut attributes = LayerAttributes::default();
-    attributes.software_name = Some(Text::from("etendue"));
+    let at =
+        |position: Vec2<usize>| picture.pixels()[position.y() * width + position.x()].to_array();
+    let software_name = Some(Text::from("etendue"));
+    let mut attributes = LayerAttributes { software_name, ..LayerAttributes::default() };
     for (name, value) in metadata.entries() {
         let value = AttributeValue::Text(Text::new_or_none(&value).unwrap_or_default());
         attributes.other.insert(Text::from(name), value);

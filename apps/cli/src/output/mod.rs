@@ -151,7 +151,8 @@ mod tests {
     fn unknown_extensions_and_missing_directories_are_refused_before_rendering() {
         let usage = Output::check(Path::new("a.gif")).expect_err("unknown format");
         assert_eq!(usage.exit, crate::failure::Exit::Usage);
-        let missing = Output::check(Path::new("no/such/directory/a.exr")).expect_err("no directory");
+        let missing =
+            Output::check(Path::new("no/such/directory/a.exr")).expect_err("no directory");
         assert_eq!(missing.exit, crate::failure::Exit::InputOutput);
     }
 }

@@ -82,6 +82,8 @@ fn interpolate(samples: &[(f64, f64)], wavelength: f64) -> f64 {
 mod tests {
     use super::*;
 
+    type Case<'a> = (&'a [(f64, f64)], SpectrumRole, [f64; 3]);
+
     /// Spectra and the colours Mitsuba 3.9.1, `scalar_rgb`, makes of them.
     #[test]
     fn colours_are_those_of_mitsuba() {
@@ -91,7 +93,7 @@ mod tests {
         let orange = [(400.0, 0.1), (500.0, 0.5), (600.0, 0.9), (700.0, 0.2)];
         let index = [(400.0, 1.5), (700.0, 2.5)];
         let wide = [(360.0, 2.0), (830.0, 2.0)];
-        let cases: [(&[(f64, f64)], _, [f64; 3]); 6] = [
+        let cases: [Case<'_>; 6] = [
             (&grey, Reflectance, [0.776367, 0.77981, 0.776029]),
             (&lamp, Emission, [20.7108, 10.8546, 2.77115]),
             (&orange, Reflectance, [0.833826, 0.689122, 0.265243]),

@@ -169,6 +169,7 @@ fn mitchell<'a>(
     Ok(ReconstructionFilter::Mitchell { b, c })
 }
 
+#[allow(clippy::unnecessary_wraps, reason = "one signature for every filter of the table")]
 fn catmull_rom<'a>(
     _: &mut PluginReader<'a>,
     _: &mut Context<'a>,

@@ -27,7 +27,7 @@ fn path<'a>(
     reader: &mut PluginReader<'a>,
     _: &mut Context<'a>,
 ) -> Result<PathSettings, SceneError> {
-    let max_depth = depth(reader.integer("max_depth")?.unwrap_or(-1)).ok_or_else(|| {
+    let max_depth = depth(reader.integer("max_depth")?.unwrap_or(-1)).map_err(|_| {
         reader.error("max_depth", "“max_depth” must be −1 (unlimited) or not negative")
     })?;
     let roulette = reader.integer("rr_depth")?.unwrap_or(5);
@@ -68,11 +68,14 @@ fn moment<'a>(
     }
 }
 
-/// The number of edges that a `max_depth` stands for; −1 is unlimited, which is `Some(None)`.
-pub(super) fn depth(max_depth: i64) -> Option<Option<u32>> {
+/// A `max_depth` below −1.
+pub(super) struct NegativeDepth;
+
+/// The largest number of edges that a `max_depth` stands for; −1 is unlimited.
+pub(super) fn depth(max_depth: i64) -> Result<Option<u32>, NegativeDepth> {
     match max_depth {
-        -1 => Some(None),
-        0.. => Some(Some(u32::try_from(max_depth).unwrap_or(u32::MAX))),
-        _ => None,
+        -1 => Ok(None),
+        0.. => Ok(Some(u32::try_from(max_depth).unwrap_or(u32::MAX))),
+        _ => Err(NegativeDepth),
     }
 }

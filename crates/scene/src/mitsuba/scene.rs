@@ -71,7 +71,7 @@ pub(super) fn assemble(
         None => framing::sensor(&context, &geometry.bounds())?,
     };
     if let Some(depth) = context.options.max_depth {
-        path.max_depth = integrator::depth(depth).ok_or_else(|| {
+        path.max_depth = integrator::depth(depth).map_err(|_| {
             SceneError::scene(file.clone(), format!("a path cannot have {depth} edges"))
         })?;
     }

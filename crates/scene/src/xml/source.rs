@@ -37,7 +37,7 @@ pub(super) fn read(path: &Path) -> Result<String, SceneError> {
     }
     String::from_utf8(bytes).map_err(|e| {
         let before = &e.as_bytes()[..e.utf8_error().valid_up_to()];
-        let line = 1 + before.iter().filter(|&&b| b == b'\n').count() as u32;
+        let line = before.split(|&b| b == b'\n').count() as u32;
         SceneError::scene(Location::line(path, line), "the text is not UTF-8")
     })
 }

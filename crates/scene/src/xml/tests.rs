@@ -208,9 +208,8 @@ fn deep_nesting_is_refused_without_exhausting_the_stack() {
     assert!(parse(&nested(60)).is_ok());
     let error = parse(&nested(500)).unwrap_err();
     assert_eq!(error.kind, ErrorKind::Resource);
-    let chain: String = (0..1000)
-        .map(|i| format!("<bsdf type=\"x\" id=\"b{i}\"><ref id=\"b{}\"/></bsdf>", i + 1))
-        .collect();
+    let link = |i| format!("<bsdf type=\"x\" id=\"b{i}\"><ref id=\"b{}\"/></bsdf>", i + 1);
+    let chain = (0..1000).map(link).collect::<Vec<_>>().concat();
     let error = parse(&(chain + "<bsdf type=\"x\" id=\"b1000\"/>")).unwrap_err();
     assert_eq!(error.kind, ErrorKind::Resource, "{error}");
 }

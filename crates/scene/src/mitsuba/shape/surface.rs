@@ -27,7 +27,7 @@ pub(super) fn surface<'a>(
     let bsdf = reader.child(Kind::Bsdf, context)?;
     let emission = reader.child(Kind::Emitter, context)?;
     let radiance = emission.map(|child| emitter::radiance(context, child.node)).transpose()?;
-    if radiance.is_some() && !(shape.area_total() > 0.0) {
+    if radiance.is_some() && shape.area_total() == 0.0 {
         return Err(SceneError::scene(location.clone(), "a light needs an area, this has none"));
     }
     let material = match bsdf {
