@@ -3,7 +3,7 @@
 //! Scene files are Mitsuba's; [`crate::xml`] reads them into a description and this module gives it a
 //! meaning. Every plugin is one function that asks a reader for its parameters; parameters that
 //! nobody asks for are errors that list those that exist, or warnings when
-//! [lenient](Leniency::Lenient). Each family of plugins has one table of names and functions, from
+//! [lenient](crate::xml::Leniency::Lenient). Each family of plugins has one table of names and functions, from
 //! which messages about unknown plugins are made as well: adding a plugin is one function and one
 //! line.
 //!
