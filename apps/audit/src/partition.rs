@@ -98,7 +98,7 @@ impl Partition {
     }
 }
 
-/// Where to cut a cell: first at the margin of its points where more than half of the cell is
+/// Where to cut a cell: first towards the margin of its points where more than half of the cell is
 /// empty, then at their median, alternating axes. `None` for a leaf.
 fn choose_split(cell: Cell, points: &[Point], per_cell: usize, depth: u32) -> Option<(usize, f64)> {
     if points.len() < 2 {
@@ -112,8 +112,12 @@ fn choose_split(cell: Cell, points: &[Point], per_cell: usize, depth: u32) -> Op
         // A quarter of the spread is left as margin, since the next points may fall outside.
         let margin = 0.25 * (high - low);
         let gaps = [low - margin - range[0], range[1] - high - margin];
-        if margin > 0.0 && gaps[0].max(gaps[1]) > high - low {
-            let at = if gaps[0] > gaps[1] { low - margin } else { high + margin };
+        let gap = gaps[0].max(gaps[1]);
+        if margin > 0.0 && gap > high - low {
+            // Wide gaps are cut in steps towards the points: one large cell would hide the lobe's
+            // tail, all of it at one edge, from the nodes of a quadrature.
+            let rest = if gap > 4.0 * (high - low) { 0.25 * gap } else { 0.0 };
+            let at = if gaps[0] > gaps[1] { low - margin - rest } else { high + margin + rest };
             return Some((axis, at));
         }
     }

@@ -25,18 +25,28 @@ impl From<&ModelInfo> for Laws {
     }
 }
 
+/// Width of a model's narrowest lobe.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Width {
+    /// Every check applies.
+    Wide,
+    /// Some thousand ulp of a direction or less: cells cannot resolve it, and cubature would sum the
+    /// rounding of directions. Checks that integrate do not apply; pointwise ones do.
+    Narrow,
+    /// Narrower than the rounding of a direction, which then decides by itself how high the lobe is
+    /// there: of a rounded direction neither the density its sampler had in mind nor, where
+    /// `wo + η wi` rounds, the value can be recovered. All other pointwise checks apply.
+    Needle,
+}
+
 /// Parameters and the model built with them.
 pub struct Case<T: Scalar> {
     /// The parameters, as the report prints them.
     pub parameters: String,
     /// The model.
     pub bsdf: Box<dyn Bsdf<Color = T> + Send + Sync>,
-    /// Its lobe fits between neighbouring `f32` directions: cells cannot resolve it and rounding
-    /// decides its value, so only what holds for any lobe is asked.
-    pub needle: bool,
-    /// Condition number of the model in its parameters: an η that has few digits between it and 1
-    /// gives a value of as few, however it is computed.
-    pub parameter_condition: f64,
+    /// How its narrowest lobe compares with what can be resolved.
+    pub width: Width,
     /// Published directional albedos, `(θ in rad, albedo)`, that must be reproduced to the three
     /// digits printed.
     pub published: &'static [(f64, f64)],
@@ -51,20 +61,14 @@ impl<T: Scalar> Case<T> {
         Self {
             parameters: parameters.into(),
             bsdf: Box::new(bsdf),
-            needle: false,
-            parameter_condition: 1.0,
+            width: Width::Wide,
             published: &[],
         }
     }
 
-    /// The same case, marked as a [`needle`](Self::needle).
-    pub fn needle(self) -> Self {
-        Self { needle: true, ..self }
-    }
-
-    /// The same case with the condition number of its parameters.
-    pub fn conditioned(self, parameter_condition: f64) -> Self {
-        Self { parameter_condition, ..self }
+    /// The same case with a lobe of another width.
+    pub fn of_width(self, width: Width) -> Self {
+        Self { width, ..self }
     }
 
     /// The same case with published albedos.

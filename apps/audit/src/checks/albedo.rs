@@ -7,7 +7,7 @@ use super::energy::{TOLERANCE, sides};
 use crate::generators::viewers;
 use crate::measure::{Outcome, Worst};
 use crate::scalar::Scalar;
-use crate::subject::Subject;
+use crate::subject::{Subject, Width};
 
 /// Asserts that the closed-form albedo is the integral it stands for, and is there if promised.
 ///
@@ -18,7 +18,7 @@ use crate::subject::Subject;
 /// Tolerance: 2e-4, twice what is asked of the cubature (see the check `energy`), plus the error
 /// the cubature states for itself.
 pub(super) fn check<T: Scalar>(subject: &Subject<T>, context: &Context) -> Outcome {
-    if subject.case.needle {
+    if subject.case.width != Width::Wide {
         return Outcome::NotApplicable("a lobe too narrow for cubature");
     }
     let mut worst = Worst::default();

@@ -10,7 +10,7 @@ use crate::measure::{Outcome, Worst};
 use crate::partition::coordinates;
 use crate::scalar::{Scalar, narrow, widen};
 use crate::statistics::chi_square_p;
-use crate::subject::{Case, Subject};
+use crate::subject::{Case, Subject, Width};
 
 /// Asserts that Pearson's χ² test cannot tell the samples from the density.
 ///
@@ -26,7 +26,7 @@ use crate::subject::{Case, Subject};
 /// for all tests of the run at 1 % overall; seeds are fixed, so the verdict never varies. The
 /// figure is −log₁₀ p.
 pub(super) fn check<T: Scalar>(subject: &Subject<T>, context: &Context) -> Outcome {
-    if subject.case.needle {
+    if subject.case.width != Width::Wide {
         return Outcome::NotApplicable("a lobe too narrow for cells");
     }
     if !subject.case.bsdf.lobes().continuous {

@@ -6,7 +6,7 @@ use super::Context;
 use crate::generators::unit_pair;
 use crate::measure::{Outcome, Worst};
 use crate::scalar::Scalar;
-use crate::subject::{Subject, conditioned_ulp};
+use crate::subject::{Subject, Width, conditioned_ulp};
 
 /// Asserts that the density reported with a sample is the density of its direction.
 ///
@@ -21,7 +21,7 @@ pub(super) fn check<T: Scalar>(subject: &Subject<T>, context: &Context) -> Outco
     if !subject.case.bsdf.lobes().continuous {
         return Outcome::NotApplicable("no continuous part");
     }
-    if subject.case.needle {
+    if subject.case.width == Width::Needle {
         return Outcome::NotApplicable("a lobe narrower than the rounding of its directions");
     }
     let mut worst = Worst::default();

@@ -8,7 +8,7 @@ use crate::cubature::Integral;
 use crate::generators::viewers;
 use crate::measure::{Outcome, Worst};
 use crate::scalar::{Scalar, narrow};
-use crate::subject::{Case, Subject};
+use crate::subject::{Case, Subject, Width};
 
 /// Absolute error asked of the integrals.
 pub(super) const TOLERANCE: f64 = 1e-4;
@@ -25,7 +25,7 @@ pub(super) const TOLERANCE: f64 = 1e-4;
 ///
 /// Tolerance: 1e-4 plus the error the cubature states for itself, which may not exceed 1e-3.
 pub(super) fn check<T: Scalar>(subject: &Subject<T>, context: &Context) -> Outcome {
-    if subject.case.needle {
+    if subject.case.width != Width::Wide {
         return Outcome::NotApplicable("a lobe too narrow for cubature");
     }
     let limit = match subject.laws.energy {

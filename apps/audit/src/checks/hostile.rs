@@ -17,8 +17,9 @@ use crate::subject::Subject;
 /// - every sample has a unit direction, a finite weight that is not negative, a density above 0
 ///   and a positive η.
 ///
-/// Unnormalised directions may give any finite value that is not negative. Tolerance: none, but 32
-/// ulp for the length of a sampled direction: a few roundings, divided by an η of 1/4 or more.
+/// Unnormalised directions may give any finite value that is not negative. Tolerance: none, but 8
+/// ulp for the length of a sampled direction: `2 (w·h) h − w` multiplies the 1½ ulp of a normalised
+/// `h` by up to four and adds its own two.
 pub(super) fn check<T: Scalar>(subject: &Subject<T>, _: &Context) -> Outcome {
     let mut tally = Tally { subject, violations: 0, first: String::new(), evaluations: 0 };
     let (units, strange, void) = (unit_grid::<T>(), unnormalised::<T>(), poisoned::<T>());
@@ -123,7 +124,7 @@ fn sane<T: Scalar>(x: T) -> bool {
 
 fn well_formed<C: Spectrum<Real = T>, T: Scalar>(sample: &Sample<C>) -> bool {
     let (Density::Continuous(density) | Density::Delta(density)) = sample.density;
-    (sample.wi.length() - T::ONE).abs() <= T::lit(32.0) * T::EPSILON
+    (sample.wi.length() - T::ONE).abs() <= T::lit(8.0) * T::EPSILON
         && sane(sample.weight.channel(0))
         && sane(density)
         && density > T::ZERO

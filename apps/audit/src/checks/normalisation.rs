@@ -5,7 +5,7 @@ use super::delta::lobes_of;
 use crate::generators::viewers;
 use crate::measure::{Outcome, Worst};
 use crate::scalar::{Scalar, narrow};
-use crate::subject::Subject;
+use crate::subject::{Subject, Width};
 
 /// Asserts that every draw is accounted for.
 ///
@@ -22,7 +22,7 @@ use crate::subject::Subject;
 pub(super) fn check<T: Scalar>(subject: &Subject<T>, context: &Context) -> Outcome {
     const STREAM: u64 = 31;
     let case = subject.case;
-    if case.needle {
+    if case.width != Width::Wide {
         return Outcome::NotApplicable("a lobe too narrow for cubature");
     }
     let mut worst = Worst::default();

@@ -24,9 +24,6 @@ pub(super) fn check<T: Scalar>(subject: &Subject<T>, context: &Context) -> Outco
     if !lobes.continuous {
         return Outcome::NotApplicable("no continuous part");
     }
-    if subject.case.needle {
-        return Outcome::NotApplicable("a lobe narrower than the rounding of its half vector");
-    }
     let index = [1.0, -1.0].map(|z| subject.case.relative_index(from_angles::<T>(z, 0.0)));
     let mut worst = Worst::default();
     for i in 0..context.budget.pairs as u64 {

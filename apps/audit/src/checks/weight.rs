@@ -23,9 +23,6 @@ pub(super) fn check<T: Scalar>(subject: &Subject<T>, context: &Context) -> Outco
     if !subject.case.bsdf.lobes().continuous {
         return Outcome::NotApplicable("no continuous part");
     }
-    if subject.case.needle {
-        return Outcome::NotApplicable("a lobe narrower than the rounding of its directions");
-    }
     let bsdf = &subject.case.bsdf;
     let quotient = |wo, wi: etendue_math::Vec3<T>| {
         let (f, pdf) = bsdf.eval_pdf(wo, wi);

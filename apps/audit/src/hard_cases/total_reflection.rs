@@ -1,6 +1,6 @@
 //! The edge of total internal reflection.
 
-use etendue_brdf::fresnel::dielectric;
+use etendue_brdf::fresnel::{dielectric, refract};
 use etendue_brdf::{Bsdf, Ior, SmoothDielectric};
 use etendue_math::glam::Vec3;
 
@@ -10,28 +10,33 @@ use crate::measure::{Outcome, Worst};
 /// Fresnel and refraction that test different expressions disagree about whether a ray passes.
 pub(super) const CASE: HardCase = HardCase {
     name: "critical angle ± ulps",
-    function: "SmoothDielectric",
-    sound: || sweep(nothing_drawn),
+    function: "fresnel::refract",
+    sound: || sweep(|w, eta| disagree(w, eta) || nothing_drawn(w, eta)),
     // Fresnel leaves something to transmit, but refraction finds no direction for it.
     naive: || sweep(|w, eta| dielectric(w.z, eta) < 1.0 && !passes_by_sine(w, eta)),
 };
 
-/// Seen from the denser side, every draw must have a direction: one without is lost energy, a black
-/// pixel. None is tolerated.
+/// Seen from the denser side within 16 ulp of the critical cosine, `refract` finds no direction
+/// exactly where the reflectance is 1, and every draw of the model has a direction: one without is
+/// lost energy, a black pixel. None is tolerated.
 fn sweep(lost: fn(Vec3, f32) -> bool) -> Outcome {
     let mut worst = Worst::default();
-    for eta in decades(-1.0, -1e-4, 400) {
+    for eta in decades(-1.0, -1e-4, 4000) {
         let mut c = ((1.0 - eta) * (1.0 + eta)).sqrt();
-        for _ in 0..8 {
+        for _ in 0..16 {
             c = c.next_down();
         }
-        for _ in 0..16 {
+        for _ in 0..=32 {
             let w = Vec3::new(((1.0 - c) * (1.0 + c)).sqrt(), 0.0, c);
             worst.observe(f64::from(u8::from(lost(w, eta))), || format!("η {eta:?}, cos {c:?}"));
             c = c.next_up();
         }
     }
     worst.within(0.0, "violations")
+}
+
+fn disagree(w: Vec3, eta: f32) -> bool {
+    (dielectric(w.z, eta) == 1.0) != refract(w, eta).is_none()
 }
 
 fn nothing_drawn(w: Vec3, eta: f32) -> bool {
