@@ -76,9 +76,9 @@ impl<C: Spectrum> RoughDielectric<C> {
     #[inline(always)]
     fn upright(
         &self,
-        wo: Vec3<C::Real>,
-        wi: Vec3<C::Real>,
-    ) -> (Vec3<C::Real>, Vec3<C::Real>, RelativeIndex<C::Real>) {
+        wo: BsdfVec<Self>,
+        wi: BsdfVec<Self>,
+    ) -> (BsdfVec<Self>, BsdfVec<Self>, RelativeIndex<C::Real>) {
         if wo.z() < C::Real::ZERO {
             (wo.flip_z(), wi.flip_z(), self.from_below)
         } else {
