@@ -69,5 +69,5 @@ pub(super) fn entered<S: Simd>(
         enter = simd.max(simd.mul(near, ray.to_near[axis]), enter);
         leave = simd.min(simd.mul(far, ray.to_far[axis]), leave);
     }
-    (simd.le(enter, leave), simd.store(enter))
+    (simd.bits(simd.le(enter, leave)), simd.store(enter))
 }

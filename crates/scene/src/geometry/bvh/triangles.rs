@@ -127,16 +127,17 @@ fn test<S: Simd>(
     let zero = simd.splat(0.0);
     let least = simd.min(u, simd.min(v, w));
     let largest = simd.max(u, simd.max(v, w));
-    let inside = simd.le(zero, least) | simd.le(largest, zero);
-    if inside == 0 {
-        return None;
-    }
-    let on_edge = inside & (simd.eq(u, zero) | simd.eq(v, zero) | simd.eq(w, zero));
+    let inside = simd.bits(simd.or(simd.le(zero, least), simd.le(largest, zero)));
+    let within = simd.or(simd.lt(zero, least), simd.lt(largest, zero));
     let determinant = simd.add(u, simd.add(v, w));
     let depth = simd.add(simd.mul(u, a.z), simd.add(simd.mul(v, b.z), simd.mul(w, c.z)));
     let t = simd.mul(simd.div(depth, determinant), simd.splat(ray.inverse));
-    let in_range = simd.lt(zero, t) & simd.lt(t, simd.splat(t_max));
-    let hit = inside & in_range & !on_edge;
+    let in_range = simd.and(simd.lt(zero, t), simd.lt(t, simd.splat(t_max)));
+    let hit = simd.bits(simd.and(within, in_range));
+    let on_edge = inside & !simd.bits(within);
+    if hit | on_edge == 0 {
+        return None;
+    }
     Some(Tested { hit, on_edge, t, v, w, determinant, corners: [a, b, c] })
 }
 

@@ -2,8 +2,8 @@
 #![allow(unsafe_code, reason = "vector instructions beyond the baseline and pointer loads")]
 
 use core::arch::x86_64::{
-    __m256, _CMP_EQ_OQ, _CMP_LE_OQ, _CMP_LT_OQ, _mm256_add_ps, _mm256_cmp_ps, _mm256_div_ps,
-    _mm256_loadu_ps, _mm256_max_ps, _mm256_min_ps, _mm256_movemask_ps, _mm256_mul_ps,
+    __m256, _CMP_LE_OQ, _CMP_LT_OQ, _mm256_add_ps, _mm256_and_ps, _mm256_cmp_ps, _mm256_div_ps,
+    _mm256_loadu_ps, _mm256_max_ps, _mm256_min_ps, _mm256_movemask_ps, _mm256_mul_ps, _mm256_or_ps,
     _mm256_set1_ps, _mm256_storeu_ps, _mm256_sub_ps,
 };
 
@@ -42,6 +42,7 @@ fn run<K: Kernel>(simd: Avx2, kernel: K) -> K::Output {
 
 impl Simd for Avx2 {
     type F = __m256;
+    type M = __m256;
 
     #[inline(always)]
     fn splat(self, x: f32) -> __m256 {
@@ -91,18 +92,28 @@ impl Simd for Avx2 {
         unsafe { _mm256_max_ps(a, b) }
     }
     #[inline(always)]
-    fn lt(self, a: __m256, b: __m256) -> u32 {
+    fn lt(self, a: __m256, b: __m256) -> __m256 {
         // SAFETY: `self` proves that the processor has AVX2.
-        unsafe { _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LT_OQ>(a, b)) as u32 }
+        unsafe { _mm256_cmp_ps::<_CMP_LT_OQ>(a, b) }
     }
     #[inline(always)]
-    fn le(self, a: __m256, b: __m256) -> u32 {
+    fn le(self, a: __m256, b: __m256) -> __m256 {
         // SAFETY: `self` proves that the processor has AVX2.
-        unsafe { _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LE_OQ>(a, b)) as u32 }
+        unsafe { _mm256_cmp_ps::<_CMP_LE_OQ>(a, b) }
     }
     #[inline(always)]
-    fn eq(self, a: __m256, b: __m256) -> u32 {
+    fn and(self, a: __m256, b: __m256) -> __m256 {
         // SAFETY: `self` proves that the processor has AVX2.
-        unsafe { _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_EQ_OQ>(a, b)) as u32 }
+        unsafe { _mm256_and_ps(a, b) }
+    }
+    #[inline(always)]
+    fn or(self, a: __m256, b: __m256) -> __m256 {
+        // SAFETY: `self` proves that the processor has AVX2.
+        unsafe { _mm256_or_ps(a, b) }
+    }
+    #[inline(always)]
+    fn bits(self, a: __m256) -> u32 {
+        // SAFETY: `self` proves that the processor has AVX2.
+        unsafe { _mm256_movemask_ps(a) as u32 }
     }
 }

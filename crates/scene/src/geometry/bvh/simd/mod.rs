@@ -20,6 +20,8 @@ pub(super) use stack::Stack;
 pub(in crate::geometry) trait Simd: Copy {
     /// Eight floats.
     type F: Copy;
+    /// A set of lanes.
+    type M: Copy;
 
     fn splat(self, x: f32) -> Self::F;
     fn load(self, x: &[f32; LANES]) -> Self::F;
@@ -32,12 +34,16 @@ pub(in crate::geometry) trait Simd: Copy {
     fn min(self, a: Self::F, b: Self::F) -> Self::F;
     /// `a > b ? a : b`: the second operand where one is NaN.
     fn max(self, a: Self::F, b: Self::F) -> Self::F;
-    /// The lanes where `a < b`, as bits; not those with a NaN.
-    fn lt(self, a: Self::F, b: Self::F) -> u32;
-    /// The lanes where `a ≤ b`, as bits; not those with a NaN.
-    fn le(self, a: Self::F, b: Self::F) -> u32;
-    /// The lanes where `a = b`, as bits; not those with a NaN.
-    fn eq(self, a: Self::F, b: Self::F) -> u32;
+    /// The lanes where `a < b`; not those with a NaN.
+    fn lt(self, a: Self::F, b: Self::F) -> Self::M;
+    /// The lanes where `a ≤ b`; not those with a NaN.
+    fn le(self, a: Self::F, b: Self::F) -> Self::M;
+    /// Lanes of both.
+    fn and(self, a: Self::M, b: Self::M) -> Self::M;
+    /// Lanes of either.
+    fn or(self, a: Self::M, b: Self::M) -> Self::M;
+    /// The lanes as bits, the first the lowest.
+    fn bits(self, a: Self::M) -> u32;
 }
 
 /// A computation written over [`Simd`]. Its `run` must be `#[inline(always)]`, and so must
@@ -115,7 +121,9 @@ mod tests {
             for shift in 0..LANES {
                 let b: [f32; LANES] = core::array::from_fn(|i| a[(i + shift) % LANES]);
                 let (x, y) = (simd.load(&a), simd.load(&b));
-                bits.extend([simd.lt(x, y), simd.le(x, y), simd.eq(x, y)]);
+                let (less, at_most, reverse) = (simd.lt(x, y), simd.le(x, y), simd.le(y, x));
+                let masks = [less, at_most, simd.and(at_most, reverse), simd.or(less, reverse)];
+                bits.extend(masks.map(|mask| simd.bits(mask)));
                 let results = [
                     simd.add(x, y),
                     simd.sub(x, y),

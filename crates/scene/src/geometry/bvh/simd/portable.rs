@@ -20,6 +20,7 @@ fn mask(a: Array, b: Array, f: impl Fn(f32, f32) -> bool) -> u32 {
 
 impl Simd for Portable {
     type F = Array;
+    type M = u32;
 
     #[inline(always)]
     fn splat(self, x: f32) -> Array {
@@ -66,7 +67,15 @@ impl Simd for Portable {
         mask(a, b, |a, b| a <= b)
     }
     #[inline(always)]
-    fn eq(self, a: Array, b: Array) -> u32 {
-        mask(a, b, |a, b| a == b)
+    fn and(self, a: u32, b: u32) -> u32 {
+        a & b
+    }
+    #[inline(always)]
+    fn or(self, a: u32, b: u32) -> u32 {
+        a | b
+    }
+    #[inline(always)]
+    fn bits(self, a: u32) -> u32 {
+        a
     }
 }

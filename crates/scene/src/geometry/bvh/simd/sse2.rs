@@ -2,8 +2,9 @@
 #![allow(unsafe_code, reason = "vector loads and stores go through pointers")]
 
 use core::arch::x86_64::{
-    __m128, _mm_add_ps, _mm_cmpeq_ps, _mm_cmple_ps, _mm_cmplt_ps, _mm_div_ps, _mm_loadu_ps,
-    _mm_max_ps, _mm_min_ps, _mm_movemask_ps, _mm_mul_ps, _mm_set1_ps, _mm_storeu_ps, _mm_sub_ps,
+    __m128, _mm_add_ps, _mm_and_ps, _mm_cmple_ps, _mm_cmplt_ps, _mm_div_ps, _mm_loadu_ps,
+    _mm_max_ps, _mm_min_ps, _mm_movemask_ps, _mm_mul_ps, _mm_or_ps, _mm_set1_ps, _mm_storeu_ps,
+    _mm_sub_ps,
 };
 
 use super::{LANES, Simd};
@@ -28,16 +29,9 @@ macro_rules! both {
     };
 }
 
-/// The sign bits of both halves.
-#[inline(always)]
-fn bits(x: Pair) -> u32 {
-    // SAFETY: as in `both`.
-    let [low, high] = unsafe { [_mm_movemask_ps(x[0]), _mm_movemask_ps(x[1])] };
-    (low | high << 4) as u32
-}
-
 impl Simd for Sse2 {
     type F = Pair;
+    type M = Pair;
 
     #[inline(always)]
     fn splat(self, x: f32) -> Pair {
@@ -84,15 +78,25 @@ impl Simd for Sse2 {
         both!(_mm_max_ps, a, b)
     }
     #[inline(always)]
-    fn lt(self, a: Pair, b: Pair) -> u32 {
-        bits(both!(_mm_cmplt_ps, a, b))
+    fn lt(self, a: Pair, b: Pair) -> Pair {
+        both!(_mm_cmplt_ps, a, b)
     }
     #[inline(always)]
-    fn le(self, a: Pair, b: Pair) -> u32 {
-        bits(both!(_mm_cmple_ps, a, b))
+    fn le(self, a: Pair, b: Pair) -> Pair {
+        both!(_mm_cmple_ps, a, b)
     }
     #[inline(always)]
-    fn eq(self, a: Pair, b: Pair) -> u32 {
-        bits(both!(_mm_cmpeq_ps, a, b))
+    fn and(self, a: Pair, b: Pair) -> Pair {
+        both!(_mm_and_ps, a, b)
+    }
+    #[inline(always)]
+    fn or(self, a: Pair, b: Pair) -> Pair {
+        both!(_mm_or_ps, a, b)
+    }
+    #[inline(always)]
+    fn bits(self, a: Pair) -> u32 {
+        // SAFETY: as in `both`.
+        let [low, high] = unsafe { [_mm_movemask_ps(a[0]), _mm_movemask_ps(a[1])] };
+        (low | high << 4) as u32
     }
 }
