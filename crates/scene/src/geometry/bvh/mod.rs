@@ -11,6 +11,7 @@
 //! | `traverse` | closest and any hit |
 //! | `simd` | eight floats at a time on what the processor offers, the only `unsafe` code |
 
+mod binary;
 mod block;
 mod boxes;
 mod build;

@@ -1,7 +1,7 @@
 //! Where to cut a range of items.
 
 use super::LANES;
-use super::build::Item;
+use super::binary::Item;
 use crate::geometry::Aabb;
 
 /// How ranges are cut.

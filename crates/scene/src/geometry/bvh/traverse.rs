@@ -1,6 +1,6 @@
 //! Closest and any hit.
 
-use super::build::MAX_DEPTH;
+use super::binary::MAX_DEPTH;
 use super::node::{Child, Content, Node};
 use super::simd::{Simd, Stack};
 use super::{Bvh, LANES, PreparedRay, boxes, triangles};
@@ -32,7 +32,7 @@ pub(in crate::geometry) trait Objects {
 }
 
 /// A node leaves at most seven siblings behind per level, and levels are limited by construction.
-const CAPACITY: usize = (LANES - 1) * MAX_DEPTH + LANES;
+const CAPACITY: usize = (LANES - 1) * (MAX_DEPTH + 2) + LANES;
 
 /// A child still to visit and where the ray enters it, in the order of the latter: distances are
 /// not negative, so that their bits are in the order of their values.
