@@ -146,6 +146,8 @@ def main():
     obj(path("torus-without-normals.obj"), has_normals=False)
     ply(path("torus.ply"), is_binary=True)
     ply(path("torus-ascii.ply"), is_binary=False)
+    with open(path("leaf.spd"), "w") as file:
+        file.write("# wavelength in nm, reflectance\n400 0.05\n500 0.1\n550 0.35\n600 0.15\n680 0.05\n720 0.5\n")
 
 
 if __name__ == "__main__":
