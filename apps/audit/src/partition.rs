@@ -105,21 +105,13 @@ fn choose_split(cell: Cell, points: &[Point], per_cell: usize, depth: u32) -> Op
         return None;
     }
     let ranges = [cell.z, cell.phi];
-    for (axis, range) in ranges.iter().enumerate() {
-        let (low, high) = points
-            .iter()
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), p| (l.min(p[axis]), h.max(p[axis])));
-        // A quarter of the spread is left as margin, since the next points may fall outside.
-        let margin = 0.25 * (high - low);
-        let gaps = [low - margin - range[0], range[1] - high - margin];
-        let gap = gaps[0].max(gaps[1]);
-        if margin > 0.0 && gap > high - low {
-            // Wide gaps are cut in steps towards the points: one large cell would hide the lobe's
-            // tail, all of it at one edge, from the nodes of a quadrature.
-            let rest = if gap > 4.0 * (high - low) { 0.25 * gap } else { 0.0 };
-            let at = if gaps[0] > gaps[1] { low - margin - rest } else { high + margin + rest };
-            return Some((axis, at));
-        }
+    // Gaps that are wide next to the points are cut in steps, and along the axis where they are
+    // widest first: what is cut off is then about as large as it is far from the points along both
+    // axes. A larger cell would hide the tail of the lobe from the nodes of a quadrature.
+    let margins = [0, 1].map(|axis| margin(ranges[axis], points.iter().map(|p| p[axis])));
+    let widest = usize::from(margins[1].gap > margins[0].gap);
+    if margins[widest].gap > 1.0 {
+        return Some((widest, margins[widest].at));
     }
     if points.len() <= per_cell {
         return None;
@@ -129,6 +121,27 @@ fn choose_split(cell: Cell, points: &[Point], per_cell: usize, depth: u32) -> Op
     values.sort_unstable_by(f64::total_cmp);
     let at = values[values.len() / 2];
     (at > ranges[axis][0] && at < ranges[axis][1]).then_some((axis, at))
+}
+
+/// The emptier end of a range of values inside a cell.
+struct Margin {
+    /// Its length in units of the spread of the values, 0 where these coincide.
+    gap: f64,
+    /// Where to cut it: at a quarter of its length, or where it is short, at its end.
+    at: f64,
+}
+
+fn margin(range: [f64; 2], values: impl Iterator<Item = f64>) -> Margin {
+    let (low, high) =
+        values.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));
+    let spread = high - low;
+    // A quarter of the spread is left as margin, since the next points may fall outside.
+    let inner = [low - 0.25 * spread, high + 0.25 * spread];
+    let gaps = [inner[0] - range[0], range[1] - inner[1]];
+    let gap = gaps[0].max(gaps[1]);
+    let rest = if gap > 4.0 * spread { 0.25 * gap } else { 0.0 };
+    let at = if gaps[0] > gaps[1] { inner[0] - rest } else { inner[1] + rest };
+    Margin { gap: if spread > 0.0 { gap / spread } else { 0.0 }, at }
 }
 
 #[cfg(test)]
