@@ -61,15 +61,6 @@ impl Child {
     pub(super) fn from_bits(bits: u32) -> Self {
         Self(bits)
     }
-
-    /// The same child after its subtree was appended to others.
-    pub(super) fn shifted(self, nodes: u32, blocks: u32) -> Self {
-        Self::new(match self.content() {
-            Content::Node(i) => Content::Node(i + nodes),
-            Content::Block(i) => Content::Block(i + blocks),
-            Content::Object(i) => Content::Object(i),
-        })
-    }
 }
 
 impl Node {
@@ -97,7 +88,6 @@ mod tests {
         for content in [Content::Node(7), Content::Block(0), Content::Object(Child::INDEX)] {
             assert_eq!(Child::new(content).content(), content);
         }
-        assert_eq!(Child::new(Content::Block(3)).shifted(10, 20).content(), Content::Block(23));
     }
 
     #[test]

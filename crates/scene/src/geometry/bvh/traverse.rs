@@ -2,7 +2,7 @@
 
 use super::binary::MAX_DEPTH;
 use super::node::{Child, Content, Node};
-use super::simd::{Simd, Stack};
+use super::simd::{Kernel, Simd, Stack};
 use super::{Bvh, LANES, PreparedRay, boxes, triangles};
 
 /// The closest hit so far.
@@ -129,7 +129,9 @@ impl Bvh {
                     let block = &self.blocks[index as usize];
                     triangles::closest(simd, block, &ray.triangles, found);
                 }
-                Content::Object(object) => objects.closest(simd, object, found),
+                Content::Object(object) => {
+                    *found = simd.call(Closest { objects, object, found: *found })
+                }
             }
             next = pop(&mut stack, found.t);
         }
@@ -160,7 +162,7 @@ impl Bvh {
                 Content::Block(index) => {
                     triangles::any(simd, &self.blocks[index as usize], &ray.triangles, t_max)
                 }
-                Content::Object(object) => objects.occluded(simd, object, t_max),
+                Content::Object(object) => simd.call(Occluded { objects, object, t_max }),
             };
             if hit {
                 return true;
@@ -168,5 +170,40 @@ impl Bvh {
             next = stack.pop();
         }
         false
+    }
+}
+
+/// An object's closest hit, apart from the loop over nodes: a hierarchy in a hierarchy would cost
+/// the outer one its registers.
+struct Closest<'a, O> {
+    objects: &'a O,
+    object: u32,
+    /// By value: a reference would keep it in memory all along.
+    found: Found,
+}
+
+impl<O: Objects> Kernel for Closest<'_, O> {
+    type Output = Found;
+
+    #[inline(always)]
+    fn run<S: Simd>(mut self, simd: S) -> Found {
+        self.objects.closest(simd, self.object, &mut self.found);
+        self.found
+    }
+}
+
+/// Whether an object is hit, apart from the loop over nodes as well.
+struct Occluded<'a, O> {
+    objects: &'a O,
+    object: u32,
+    t_max: f32,
+}
+
+impl<O: Objects> Kernel for Occluded<'_, O> {
+    type Output = bool;
+
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S) -> bool {
+        self.objects.occluded(simd, self.object, self.t_max)
     }
 }

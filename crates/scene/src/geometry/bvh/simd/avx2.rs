@@ -44,6 +44,10 @@ impl Simd for Avx2 {
     type F = __m256;
     type M = __m256;
 
+    #[inline(never)]
+    fn call<K: Kernel>(self, kernel: K) -> K::Output {
+        self.run(kernel)
+    }
     #[inline(always)]
     fn splat(self, x: f32) -> __m256 {
         // SAFETY: `self` proves that the processor has AVX2.

@@ -23,6 +23,8 @@ pub(in crate::geometry) trait Simd: Copy {
     /// A set of lanes.
     type M: Copy;
 
+    /// Runs a kernel as a function of its own, with the instructions.
+    fn call<K: Kernel>(self, kernel: K) -> K::Output;
     fn splat(self, x: f32) -> Self::F;
     fn load(self, x: &[f32; LANES]) -> Self::F;
     fn store(self, x: Self::F) -> [f32; LANES];

@@ -1,6 +1,6 @@
 //! Eight floats in an array.
 
-use super::{LANES, Simd};
+use super::{Kernel, LANES, Simd};
 
 /// Works everywhere; compilers turn most of it into vector instructions.
 #[derive(Clone, Copy, Debug)]
@@ -22,6 +22,10 @@ impl Simd for Portable {
     type F = Array;
     type M = u32;
 
+    #[inline(never)]
+    fn call<K: Kernel>(self, kernel: K) -> K::Output {
+        kernel.run(self)
+    }
     #[inline(always)]
     fn splat(self, x: f32) -> Array {
         [x; LANES]

@@ -7,7 +7,7 @@ use core::arch::x86_64::{
     _mm_sub_ps,
 };
 
-use super::{LANES, Simd};
+use super::{Kernel, LANES, Simd};
 
 /// The baseline of x86-64.
 #[derive(Clone, Copy, Debug)]
@@ -33,6 +33,10 @@ impl Simd for Sse2 {
     type F = Pair;
     type M = Pair;
 
+    #[inline(never)]
+    fn call<K: Kernel>(self, kernel: K) -> K::Output {
+        kernel.run(self)
+    }
     #[inline(always)]
     fn splat(self, x: f32) -> Pair {
         // SAFETY: as in `both`.
