@@ -4,8 +4,9 @@
 //! from a camera, from hit points in random directions, and segments between random hit points.
 #![allow(missing_docs, reason = "a program")]
 
+use core::time::Duration;
 use std::path::Path;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use etendue_math::glam::Vec3;
 use etendue_scene::geometry::{Geometry, GeometryBuilder, Ray, Shape, SurfacePoint, TriangleMesh};

@@ -130,7 +130,7 @@ impl Bvh {
                     triangles::closest(simd, block, &ray.triangles, found);
                 }
                 Content::Object(object) => {
-                    *found = simd.call(Closest { objects, object, found: *found })
+                    *found = simd.call(Closest { objects, object, found: *found });
                 }
             }
             next = pop(&mut stack, found.t);
