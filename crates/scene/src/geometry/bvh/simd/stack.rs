@@ -43,3 +43,23 @@ impl<T: Copy, const N: usize> Stack<T, N> {
         unsafe { &mut *(core::ptr::from_mut(pushed) as *mut [T]) }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_was_pushed_last_is_popped_first() {
+        let mut stack = Stack::<u32, 3>::new();
+        assert_eq!(stack.pop(), None);
+        for entry in [1, 2, 3] {
+            stack.push(entry);
+        }
+        stack.as_mut_slice().swap(0, 2);
+        assert_eq!(
+            [stack.pop(), stack.pop(), stack.pop(), stack.pop()],
+            [Some(1), Some(2), Some(3), None]
+        );
+        assert_eq!(stack.len(), 0);
+    }
+}
