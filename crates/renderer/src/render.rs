@@ -5,6 +5,7 @@ use std::sync::{Mutex, PoisonError};
 
 use etendue_math::Spectrum;
 use etendue_sampling::{Decision, Dimension, Independent, Sampler, Sobol};
+use etendue_scene::material::PreparedMaterials;
 use etendue_scene::scene::SamplerKind;
 use etendue_scene::{Color, Scene};
 
@@ -22,6 +23,7 @@ use crate::tile::Tile;
 pub struct Renderer<'a> {
     scene: &'a Scene,
     settings: RenderSettings,
+    materials: PreparedMaterials<'a>,
     lights: LightSampler,
     filter: FilterSampler,
     pool: rayon::ThreadPool,
@@ -64,7 +66,7 @@ pub struct Rendering {
 }
 
 impl<'a> Renderer<'a> {
-    /// Prepares lights, filter and threads.
+    /// Prepares materials, lights, filter and threads.
     ///
     /// # Errors
     /// The threads cannot be started.
@@ -74,9 +76,10 @@ impl<'a> Renderer<'a> {
             .thread_name(|i| format!("render {i}"))
             .build()
             .map_err(ThreadError)?;
+        let materials = PreparedMaterials::new(&scene.materials, &scene.textures);
         let lights = LightSampler::new(scene);
         let filter = FilterSampler::new(&scene.film);
-        Ok(Self { scene, settings, lights, filter, pool })
+        Ok(Self { scene, settings, materials, lights, filter, pool })
     }
 
     /// Number of threads that render.
@@ -156,14 +159,14 @@ impl<'a> Renderer<'a> {
         rendering.into_inner().unwrap_or_else(PoisonError::into_inner)
     }
 
-    fn tracer(&self) -> PathTracer<'_> {
+    fn tracer(&self) -> PathTracer<'_, 'a> {
         let RenderSettings { path, strategy, .. } = self.settings;
-        PathTracer::new(self.scene, &self.lights, path, strategy)
+        PathTracer::new(self.scene, &self.materials, &self.lights, path, strategy)
     }
 
     fn render_tile<S: Sampler>(
         &self,
-        tracer: &PathTracer<'_>,
+        tracer: &PathTracer<'_, '_>,
         tile: Tile,
     ) -> (Vec<Color>, Statistics) {
         let mut statistics = Statistics::default();
@@ -176,7 +179,7 @@ impl<'a> Renderer<'a> {
 
     fn render_pixel<S: Sampler>(
         &self,
-        tracer: &PathTracer<'_>,
+        tracer: &PathTracer<'_, '_>,
         pixel: [u32; 2],
         statistics: &mut Statistics,
     ) -> Color {
@@ -196,14 +199,19 @@ impl<'a> Renderer<'a> {
 
     fn path_sample<S: Sampler>(
         &self,
-        tracer: &PathTracer<'_>,
+        tracer: &PathTracer<'_, '_>,
         filter: &PixelFilter<'_>,
         points: &S,
         rays: &mut RayCounts,
     ) -> Color {
         let film = filter.sample(points.sample_2d(Dimension::camera(Decision::Film)));
-        let lens = points.sample_2d(Dimension::camera(Decision::Lens));
-        let ray = self.scene.camera.ray(film.position, lens);
+        let camera = &self.scene.camera;
+        let lens = if camera.has_lens() {
+            points.sample_2d(Dimension::camera(Decision::Lens))
+        } else {
+            [0.0; 2]
+        };
+        let ray = camera.ray(film.position, lens);
         tracer.radiance(ray, points, rays).scale(film.weight)
     }
 }

@@ -208,6 +208,12 @@ impl Camera {
         }
     }
 
+    /// Whether rays depend on the point of the lens.
+    #[inline]
+    pub fn has_lens(&self) -> bool {
+        matches!(self.optics, Optics::Lens { .. })
+    }
+
     /// What kind of camera it is, in words.
     pub fn name(&self) -> &'static str {
         match self.optics {

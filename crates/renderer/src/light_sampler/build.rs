@@ -1,7 +1,8 @@
 //! Building the light tree.
 
 use super::cluster::Cluster;
-use super::node::{Link, Node, Pair};
+use super::node::{Link, Node};
+use super::pair::Pair;
 
 /// Buckets per axis in which splits are tried.
 const BUCKETS: usize = 12;
@@ -50,12 +51,12 @@ impl Builder {
         let place = self.pairs.len();
         // Reserves the place, so that parents come before their children in memory.
         let (first, last) = (left.first()?, right.first()?);
-        self.pairs.push(Pair(
-            [first, last].map(|emitter| Node::new(&emitter.cluster, Link::Emitter(emitter.index))),
-        ));
+        let clusters = [&first.cluster, &last.cluster];
+        let nodes = clusters.map(|cluster| Node::new(cluster, Link::Emitter(first.index)));
+        self.pairs.push(Pair::new(nodes, clusters));
         let left = self.build(left, trail, depth + 1)?;
         let right = self.build(right, trail | 1 << depth, depth + 1)?;
-        self.pairs[place] = Pair([left.node, right.node]);
+        self.pairs[place] = Pair::new([left.node, right.node], [&left.cluster, &right.cluster]);
         let cluster = left.cluster.union(&right.cluster);
         Some(Subtree { node: Node::new(&cluster, Link::Pair(place as u32)), cluster })
     }

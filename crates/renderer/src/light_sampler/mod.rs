@@ -4,6 +4,7 @@ mod build;
 mod cluster;
 mod cone;
 mod node;
+mod pair;
 mod receiver;
 mod tree;
 

@@ -10,7 +10,7 @@ use super::receiver::{Receiver, Sides};
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Node {
     centre: Vec3,
-    radius_squared: f32,
+    radius: f32,
     axis: Vec3,
     power: f32,
     /// Half angle θo of the cone of normals.
@@ -33,10 +33,6 @@ const EMITTER: u32 = 1 << 31;
 const BOTH_FACES: u32 = 1 << 30;
 const INDEX: u32 = BOTH_FACES - 1;
 
-/// Two children side by side.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Pair(pub(super) [Node; 2]);
-
 impl Node {
     /// How many emitters a tree can hold.
     pub(super) const MAX_EMITTERS: usize = INDEX as usize;
@@ -50,7 +46,7 @@ impl Node {
         let faces = if cluster.faces == Faces::Both { BOTH_FACES } else { 0 };
         Self {
             centre: cluster.centre(),
-            radius_squared: cluster.radius().sqr(),
+            radius: cluster.radius(),
             axis: cluster.normals.axis,
             power: cluster.power,
             normals: Angle::from_cos(cluster.normals.cos_spread),
@@ -88,13 +84,13 @@ impl Node {
         const GRAZING: f32 = 1e-3;
         let to_cluster = self.centre - receiver.position;
         let distance_squared = to_cluster.length_squared();
-        if distance_squared <= self.radius_squared || distance_squared < f32::MIN_POSITIVE {
-            return self.power / self.radius_squared.max(NEAREST);
+        let radius_squared = self.radius * self.radius;
+        if distance_squared <= radius_squared || distance_squared < f32::MIN_POSITIVE {
+            return self.power / radius_squared.max(NEAREST);
         }
-        let per_squared_distance = 1.0 / distance_squared;
-        let direction = to_cluster * per_squared_distance.sqrt();
-        let sin2_b = self.radius_squared * per_squared_distance;
-        let bound = Angle { cos: (1.0 - sin2_b).safe_sqrt(), sin: sin2_b.sqrt() };
+        let per_distance = 1.0 / distance_squared.sqrt();
+        let direction = to_cluster * per_distance;
+        let bound = Angle::from_sin(self.radius * per_distance);
 
         let cos_w = -direction.dot(self.axis);
         let cos_w = if self.link & BOTH_FACES == 0 { cos_w } else { cos_w.abs() };
@@ -108,7 +104,10 @@ impl Node {
         if incident.cos < -GRAZING {
             return 0.0;
         }
-        self.power * emission.cos.max(GRAZING) * incident.cos.max(GRAZING) * per_squared_distance
+        self.power
+            * emission.cos.max(GRAZING)
+            * incident.cos.max(GRAZING)
+            * (per_distance * per_distance)
     }
 }
 
@@ -126,6 +125,12 @@ impl Angle {
     #[inline(always)]
     fn from_cos(cos: f32) -> Self {
         Self { cos, sin: (1.0 - cos * cos).safe_sqrt() }
+    }
+
+    /// The acute angle of a sine.
+    #[inline(always)]
+    fn from_sin(sin: f32) -> Self {
+        Self { cos: (1.0 - sin * sin).safe_sqrt(), sin }
     }
 
     /// max(0, self − other).

@@ -4,7 +4,8 @@ use etendue_math::Real;
 
 use super::build::{Builder, Emitter};
 use super::cluster::Cluster;
-use super::node::{Link, Node, Pair};
+use super::node::{Link, Node};
+use super::pair::Pair;
 use super::receiver::Receiver;
 
 /// A bounding volume hierarchy over emitters with bounds on where they shine.
@@ -59,13 +60,13 @@ impl LightTree {
                 Link::Emitter(emitter) => return Some(Chosen { emitter, probability }),
                 Link::Pair(index) => {
                     let pair = &self.pairs[index as usize];
-                    let [first, second] = shares(pair, receiver)?;
+                    let [first, second] = pair.shares(receiver)?;
                     if u < first {
-                        link = pair.0[0].link();
+                        link = pair.nodes()[0].link();
                         probability *= first;
                         u /= first;
                     } else {
-                        link = pair.0[1].link();
+                        link = pair.nodes()[1].link();
                         probability *= second;
                         u = (u - first) / second;
                     }
@@ -89,8 +90,8 @@ impl LightTree {
             let pair = &self.pairs[index as usize];
             let side = (trail & 1) as usize;
             trail >>= 1;
-            probability *= shares(pair, receiver)?[side];
-            link = pair.0[side].link();
+            probability *= pair.shares(receiver)?[side];
+            link = pair.nodes()[side].link();
         }
         Some(probability)
     }
@@ -102,23 +103,6 @@ impl LightTree {
         let root = self.root.as_ref()?;
         let decides_below = matches!(root.link(), Link::Pair(_));
         (decides_below || root.importance(receiver) > 0.0).then_some(root)
-    }
-}
-
-/// Probabilities of the two children; `None` where neither is of importance.
-#[inline]
-fn shares(pair: &Pair, receiver: &Receiver) -> Option<[f32; 2]> {
-    let [a, b] = [pair.0[0].importance(receiver), pair.0[1].importance(receiver)];
-    match (a > 0.0, b > 0.0) {
-        (true, true) => {
-            // 1 − first instead of b/(a + b): the second child is taken for all the rest of the
-            // unit interval. A child of some importance keeps it in the face of rounding.
-            let first = (a / (a + b)).clamp(0.5 * f32::EPSILON, f32::ONE_MINUS_EPSILON);
-            Some([first, 1.0 - first])
-        }
-        (true, false) => Some([1.0, 0.0]),
-        (false, true) => Some([0.0, 1.0]),
-        (false, false) => None,
     }
 }
 

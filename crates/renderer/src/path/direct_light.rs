@@ -12,18 +12,18 @@ use crate::light_sampler::Receiver;
 use crate::settings::Strategy;
 use crate::statistics::RayCounts;
 
-impl PathTracer<'_> {
+impl PathTracer<'_, '_> {
     /// An estimate, by one light sample, of the light scattered towards the camera.
     pub(super) fn direct_light<S: Sampler>(
         &self,
-        vertex: &Vertex<'_>,
+        vertex: &Vertex<'_, '_>,
         points: &S,
         rays: &mut RayCounts,
     ) -> Color {
         if self.light_sampling == LightSampling::Useless || !vertex.bsdf.lobes().continuous {
             return Color::black();
         }
-        let Some((sample, probability)) = self.sample_light(vertex, points) else {
+        let Some(sample) = self.sample_light(vertex, points) else {
             return Color::black();
         };
         let wi = vertex.point.shading.to_local(sample.direction);
@@ -32,25 +32,19 @@ impl PathTracer<'_> {
         }
         let (f, scattering_density) = vertex.bsdf.eval_pdf(vertex.wo, wi);
         let scale = match sample.density {
-            Density::Delta(p) => 1.0 / (p * probability),
-            Density::Continuous(p) => {
-                let density = p * probability;
-                self.light_weight(density, scattering_density) / density
-            }
+            Density::Delta(p) => 1.0 / p,
+            Density::Continuous(p) => self.light_weight(p, scattering_density) / p,
         };
         let light = f * sample.radiance * (scale * wi.z.abs());
-        if light.is_black() || self.occluded(&vertex.point, &sample, rays) {
+        if light.is_black() || self.occluded(vertex.point, &sample, rays) {
             return Color::black();
         }
         light
     }
 
-    /// A light sample and the probability of having chosen its light.
-    fn sample_light<S: Sampler>(
-        &self,
-        vertex: &Vertex<'_>,
-        points: &S,
-    ) -> Option<(LightSample, f32)> {
+    /// A light sample; its density accounts for the choice of the light.
+    #[inline]
+    fn sample_light<S: Sampler>(&self, vertex: &Vertex<'_, '_>, points: &S) -> Option<LightSample> {
         let u = if self.lights.count() > 1 {
             points.sample_1d(vertex.dimension(Decision::LightChoice))
         } else {
@@ -58,15 +52,18 @@ impl PathTracer<'_> {
         };
         let choice = self.lights.choose(&vertex.receiver, u)?;
         let u = points.sample_2d(vertex.dimension(Decision::LightPoint));
-        let sample = self.scene.sample_light(choice.light, choice.primitive, &vertex.point, u)?;
-        match sample.density {
+        let mut sample =
+            self.scene.sample_light(choice.light, choice.primitive, vertex.point, u)?;
+        sample.density = match sample.density {
             Density::Continuous(_)
                 if sample.target.is_none() && self.several_infinite_lights == Several::Yes =>
             {
-                Some((self.over_all_infinite_lights(&vertex.receiver, &sample), 1.0))
+                return Some(self.over_all_infinite_lights(&vertex.receiver, &sample));
             }
-            _ => Some((sample, choice.probability)),
-        }
+            Density::Continuous(p) => Density::Continuous(p * choice.probability),
+            Density::Delta(p) => Density::Delta(p * choice.probability),
+        };
+        Some(sample)
     }
 
     /// The same direction as if drawn from the mixture of all infinite lights: what the scattered

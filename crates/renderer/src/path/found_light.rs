@@ -11,7 +11,7 @@ use super::{Arrival, PathTracer, Walk};
 use crate::light_sampler::Receiver;
 use crate::settings::Strategy;
 
-impl PathTracer<'_> {
+impl PathTracer<'_, '_> {
     /// Light that the surface itself emits along the ray, weighted for how the ray was found.
     pub(super) fn emitted(&self, walk: &Walk, point: &SurfacePoint) -> Color {
         let direction = walk.ray.direction;

@@ -10,7 +10,7 @@ use etendue_math::glam::Vec3;
 use etendue_sampling::{Decision, Dimension, Sampler};
 use etendue_scene::geometry::{Ray, SurfacePoint};
 use etendue_scene::light::Light;
-use etendue_scene::material::{PreparedBsdf, Side};
+use etendue_scene::material::{PreparedBsdf, PreparedMaterials, Side};
 use etendue_scene::scene::PathSettings;
 use etendue_scene::{Color, Scene};
 
@@ -33,8 +33,9 @@ use crate::statistics::RayCounts;
 /// Transport Simulation", 1997, chapters 9 and 10. Depth, roulette and hidden emitters count as
 /// in Mitsuba 3's `path`, pass-through surfaces included: each is a vertex of its own.
 #[derive(Clone, Copy)]
-pub(crate) struct PathTracer<'a> {
-    scene: &'a Scene,
+pub(crate) struct PathTracer<'a, 's> {
+    scene: &'s Scene,
+    materials: &'a PreparedMaterials<'s>,
     lights: &'a LightSampler,
     settings: PathSettings,
     strategy: Strategy,
@@ -75,17 +76,17 @@ enum View {
 }
 
 /// A surface that a path has met.
-struct Vertex<'a> {
+struct Vertex<'a, 's> {
     /// Number of edges from the camera to here.
     depth: u16,
-    point: SurfacePoint,
-    bsdf: PreparedBsdf<'a>,
+    point: &'a SurfacePoint,
+    bsdf: &'a PreparedBsdf<'s>,
     /// Towards the camera, in the shading frame.
     wo: Vec3,
     receiver: Receiver,
 }
 
-impl Vertex<'_> {
+impl Vertex<'_, '_> {
     fn dimension(&self, decision: Decision) -> Dimension {
         Dimension::vertex(self.depth, decision)
     }
@@ -107,9 +108,10 @@ enum Fate {
     Ends,
 }
 
-impl<'a> PathTracer<'a> {
+impl<'a, 's> PathTracer<'a, 's> {
     pub(crate) fn new(
-        scene: &'a Scene,
+        scene: &'s Scene,
+        materials: &'a PreparedMaterials<'s>,
         lights: &'a LightSampler,
         settings: PathSettings,
         strategy: Strategy,
@@ -119,7 +121,7 @@ impl<'a> PathTracer<'a> {
         let light_sampling = if useful { LightSampling::Useful } else { LightSampling::Useless };
         let several_infinite_lights =
             if scene.infinite_lights().len() > 1 { Several::Yes } else { Several::No };
-        Self { scene, lights, settings, strategy, light_sampling, several_infinite_lights }
+        Self { scene, materials, lights, settings, strategy, light_sampling, several_infinite_lights }
     }
 
     /// An estimate of the radiance that arrives along a ray of the camera.
@@ -150,7 +152,8 @@ impl<'a> PathTracer<'a> {
             if depth == longest {
                 break;
             }
-            let vertex = self.vertex(depth, point, walk.ray.direction);
+            let mut varying = None;
+            let vertex = self.vertex(depth, &point, walk.ray.direction, &mut varying);
             if self.is_inconsistent(&vertex, -walk.ray.direction, vertex.wo) {
                 break;
             }
@@ -188,9 +191,19 @@ impl<'a> PathTracer<'a> {
         self.scene.surfaces[point.shape.0 as usize].light.is_some()
     }
 
-    fn vertex(&self, depth: u16, point: SurfacePoint, direction: Vec3) -> Vertex<'a> {
+    /// The vertex at a point; `varying` holds the reflection model where textures make it one of its
+    /// own.
+    #[inline]
+    fn vertex<'v>(
+        &'v self,
+        depth: u16,
+        point: &'v SurfacePoint,
+        direction: Vec3,
+        varying: &'v mut Option<PreparedBsdf<'s>>,
+    ) -> Vertex<'v, 's> {
         let wo = point.shading.to_local(-direction);
-        let bsdf = self.scene.prepare(&point, Side::of(wo));
+        let material = self.scene.surfaces[point.shape.0 as usize].material;
+        let bsdf = self.materials.at(material, point.uv, Side::of(wo), varying);
         let normal = if wo.z < 0.0 { -point.shading.n } else { point.shading.n };
         let sides = if bsdf.lobes().transmission { Sides::Both } else { Sides::Front };
         let receiver = Receiver { position: point.position, normal, sides };

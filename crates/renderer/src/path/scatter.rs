@@ -7,15 +7,19 @@ use etendue_sampling::{Decision, Sampler};
 
 use super::{Arrival, Fate, PathTracer, Vertex, View, Walk};
 
-impl PathTracer<'_> {
+impl PathTracer<'_, '_> {
     /// Chooses where the path goes on, and whether it does.
     pub(super) fn scatter<S: Sampler>(
         &self,
-        vertex: &Vertex<'_>,
+        vertex: &Vertex<'_, '_>,
         walk: &mut Walk,
         points: &S,
     ) -> Fate {
-        let u_lobe = points.sample_1d(vertex.dimension(Decision::LobeChoice));
+        let u_lobe = if vertex.bsdf.chooses_lobe() {
+            points.sample_1d(vertex.dimension(Decision::LobeChoice))
+        } else {
+            0.0
+        };
         let u = points.sample_2d(vertex.dimension(Decision::Direction));
         let Some(sample) = vertex.bsdf.sample(vertex.wo, u_lobe, u) else { return Fate::Ends };
         walk.throughput = walk.throughput * sample.weight;
@@ -42,7 +46,12 @@ impl PathTracer<'_> {
 
     /// Whether strict normals forbid a direction, given in world and local coordinates: it lies on
     /// different sides of the surface and of its interpolated normal.
-    pub(super) fn is_inconsistent(&self, vertex: &Vertex<'_>, world: Vec3, local: Vec3) -> bool {
+    pub(super) fn is_inconsistent(
+        &self,
+        vertex: &Vertex<'_, '_>,
+        world: Vec3,
+        local: Vec3,
+    ) -> bool {
         self.settings.strict_normals && world.dot(vertex.point.normal) * local.z <= 0.0
     }
 
@@ -53,7 +62,7 @@ impl PathTracer<'_> {
     /// ```
     ///
     /// η² undoes the compression of radiance inside a medium, which the way out reverses.
-    fn roulette<S: Sampler>(&self, vertex: &Vertex<'_>, walk: &mut Walk, points: &S) -> Fate {
+    fn roulette<S: Sampler>(&self, vertex: &Vertex<'_, '_>, walk: &mut Walk, points: &S) -> Fate {
         let largest = walk.throughput.max_channel();
         // False for NaN, which goes on to be counted where it reaches the film.
         if largest <= 0.0 {

@@ -157,7 +157,6 @@ impl Cylinder {
             ],
             tangents: Some([around.as_vec3(), (n * self.length).as_vec3()]),
             primitive: 0,
-            barycentric: [0.0; 2],
         }
     }
 

@@ -83,7 +83,6 @@ impl Disk {
                 to_world.transform_vector3(DVec3::new(-sin, cos, 0.0)).as_vec3(),
             ]),
             primitive: 0,
-            barycentric: [0.0; 2],
         }
     }
 

@@ -215,7 +215,6 @@ impl TriangleMesh {
             uv: self.uv(triangle, barycentric),
             tangents: self.tangents(triangle, &corners),
             primitive: triangle,
-            barycentric,
         }
     }
 

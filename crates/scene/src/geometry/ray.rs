@@ -36,9 +36,9 @@ impl Ray {
     /// Finite origin, finite direction that is not zero, and a positive `t_max`.
     #[inline]
     pub(crate) fn is_valid(&self) -> bool {
-        // A comparison with NaN is false, so a NaN t_max is refused as well.
-        self.origin.is_finite()
-            && self.direction.is_finite()
+        // Zero times what is not finite is NaN, and a comparison with NaN is false: six tests in
+        // one, and a NaN t_max is refused as well.
+        self.origin * 0.0 + self.direction * 0.0 == Vec3::ZERO
             && self.direction != Vec3::ZERO
             && self.t_max > 0.0
     }

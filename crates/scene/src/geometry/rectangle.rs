@@ -72,7 +72,6 @@ impl Rectangle {
             uv: core::array::from_fn(|i| b0 * uv0[i] + b1 * uv1[i] + b2 * uv2[i]),
             tangents: Some([self.corners[1] - self.corners[0], self.corners[3] - self.corners[0]]),
             primitive: 0,
-            barycentric: [b1, b2],
         }
     }
 

@@ -42,6 +42,7 @@ impl ShapeSample {
 /// ```
 ///
 /// 0 where the surface is seen edge-on or from itself: no light passes there.
+#[inline]
 pub(crate) fn solid_angle_density(
     pdf_area: f32,
     reference: Vec3,

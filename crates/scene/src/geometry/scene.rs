@@ -150,6 +150,7 @@ impl Geometry {
     ///
     /// # Panics
     /// A hit of another geometry may name shapes and triangles that do not exist here.
+    #[inline]
     pub fn surface_point(&self, ray: &Ray, hit: &Hit) -> SurfacePoint {
         let shape = &self.shapes[hit.shape.0 as usize];
         match self.instances.get(hit.instance as usize) {

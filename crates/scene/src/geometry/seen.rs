@@ -10,13 +10,12 @@ use etendue_sampling::warp::spherical_triangle::SphericalTriangle;
 use super::sample::solid_angle_density;
 use super::{Shape, ShapeSample, SurfacePoint};
 
-/// A primitive as a reference point sees it: which map draws points on it.
+/// A primitive as a reference point sees it from near by: which map draws points on it.
 enum Seen {
     Sphere(SeenSphere<f64>),
     Triangle(SphericalTriangle<f32>),
     Rectangle(SphericalRectangle<f32>),
-    /// Uniform in area: disks and cylinders, and what is too small, too near or too oblique to be
-    /// worth sampling by solid angle.
+    /// Uniform in area: where a solid angle is too close to 2π or to 0 to be computed well.
     Area {
         pdf: f32,
     },
@@ -39,15 +38,30 @@ impl Seen {
 }
 
 impl Shape {
-    /// `None` for a primitive that does not exist or has no area.
-    fn seen(&self, primitive: u32, reference: Vec3) -> Option<Seen> {
-        let area = self.primitive_area(primitive);
-        if area == 0.0 {
-            return None;
-        }
-        let by_angle = match self {
+    /// Whether points of a primitive are drawn uniformly in area, without a look at its solid angle.
+    #[inline]
+    fn is_sampled_by_area(&self, primitive: u32, reference: Vec3) -> bool {
+        match self {
             // Points on the wall see the inside whether rounding has put them inside or outside.
-            Self::Sphere(sphere) if sphere.faces_inward() => None,
+            Self::Sphere(sphere) => sphere.faces_inward(),
+            Self::Mesh(mesh) => {
+                let [a, b, c] = mesh.corners(primitive);
+                let corners = [a - reference, b - reference, c - reference];
+                looks_small(mesh.facet(primitive).longest_squared, &corners)
+            }
+            Self::Rectangle(rectangle) => {
+                let [a, b, c, d] = *rectangle.corners();
+                let longest = (b - a).length_squared().max((d - a).length_squared());
+                looks_small(longest, &[a - reference, b - reference, c - reference, d - reference])
+            }
+            Self::Disk(_) | Self::Cylinder(_) => true,
+        }
+    }
+
+    /// The map that draws points of a primitive that is not sampled by area; `None` where it has no
+    /// solid angle at all.
+    fn seen(&self, primitive: u32, reference: Vec3) -> Option<Seen> {
+        let by_angle = match self {
             Self::Sphere(sphere) => {
                 return SeenSphere::new(
                     sphere.exact_center() - reference.as_dvec3(),
@@ -56,25 +70,18 @@ impl Shape {
                 .map(Seen::Sphere);
             }
             Self::Mesh(mesh) => {
-                let corners = mesh.corners(primitive).map(|corner| corner - reference);
-                if looks_small(corners) {
-                    None
-                } else {
-                    SphericalTriangle::new(corners).map(Seen::Triangle)
-                }
+                SphericalTriangle::new(mesh.corners(primitive).map(|corner| corner - reference))
+                    .map(Seen::Triangle)
             }
             Self::Rectangle(rectangle) => {
-                let [corner, right, opposite, top] = *rectangle.corners();
-                if looks_small([corner, right, opposite, top].map(|c| c - reference)) {
-                    return Some(Seen::Area { pdf: 1.0 / area });
-                }
+                let [corner, right, _, top] = *rectangle.corners();
                 let edges = [right - corner, top - corner];
                 SphericalRectangle::new(Corner { corner: corner - reference, edges })
                     .map(Seen::Rectangle)
             }
             Self::Disk(_) | Self::Cylinder(_) => None,
         };
-        Some(by_angle.unwrap_or(Seen::Area { pdf: 1.0 / area }))
+        Some(by_angle.unwrap_or(Seen::Area { pdf: 1.0 / self.primitive_area(primitive) }))
     }
 
     /// A point of a primitive drawn for a reference point that it illuminates, and its density with
@@ -96,7 +103,29 @@ impl Shape {
     /// assert!((1.0 / pdf - 4.0 * std::f32::consts::PI / 6.0).abs() < 1e-5);
     /// # Ok::<(), etendue_scene::geometry::ShapeError>(())
     /// ```
+    #[inline]
     pub fn sample_from(
+        &self,
+        primitive: u32,
+        reference: Vec3,
+        u: [f32; 2],
+    ) -> Option<(ShapeSample, f32)> {
+        let area = self.primitive_area(primitive);
+        if area == 0.0 {
+            return None;
+        }
+        if !self.is_sampled_by_area(primitive, reference) {
+            return self.sample_seen(primitive, reference, u);
+        }
+        let sample = self.sample_area(primitive, u)?;
+        let pdf = solid_angle_density(1.0 / area, reference, sample.position, sample.normal);
+        (pdf > 0.0).then_some((sample, pdf))
+    }
+
+    /// The same for a primitive that is not sampled by area. Kept out of line: it is long, and most
+    /// lights look small from most places.
+    #[inline(never)]
+    fn sample_seen(
         &self,
         primitive: u32,
         reference: Vec3,
@@ -127,8 +156,16 @@ impl Shape {
     /// [`sample_from`](Self::sample_from) draws a point of this shape on its primitive
     /// `point.primitive`; 0 for a primitive that it draws no points on.
     pub fn pdf_from(&self, reference: Vec3, point: &SurfacePoint) -> f32 {
-        self.seen(point.primitive, reference)
-            .map_or(0.0, |seen| seen.density(reference, point.position, point.normal))
+        let SurfacePoint { primitive, position, normal, .. } = *point;
+        let area = self.primitive_area(primitive);
+        if area == 0.0 {
+            return 0.0;
+        }
+        if self.is_sampled_by_area(primitive, reference) {
+            return solid_angle_density(1.0 / area, reference, position, normal);
+        }
+        self.seen(primitive, reference)
+            .map_or(0.0, |seen| seen.density(reference, position, normal))
     }
 }
 
@@ -136,9 +173,9 @@ impl Shape {
 /// solid angle, and several times faster: no side is longer than half the distance of the nearest
 /// corner, so that `1/d²` varies by little over it.
 #[inline]
-fn looks_small<const N: usize>(corners: [Vec3; N]) -> bool {
-    let nearest = corners.iter().map(|c| c.length_squared()).fold(f32::INFINITY, f32::min);
-    (0..N).all(|i| (corners[(i + 1) % N] - corners[i]).length_squared() < 0.25 * nearest)
+fn looks_small<const N: usize>(longest_squared: f32, corners: &[Vec3; N]) -> bool {
+    // Written so that NaN is not small.
+    corners.iter().all(|c| 4.0 * longest_squared < c.length_squared())
 }
 
 /// Where a line meets a plane, in coordinates along the plane's edges limited to `[0, 1]`; `None`

@@ -162,7 +162,6 @@ impl Sphere {
                 to_world.transform_vector3(dv).as_vec3(),
             ]),
             primitive: 0,
-            barycentric: [0.0; 2],
         }
     }
 

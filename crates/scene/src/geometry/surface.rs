@@ -28,8 +28,6 @@ pub struct SurfacePoint {
     pub shape: ShapeId,
     /// The primitive within the shape, for [`Shape::pdf_from`](super::Shape::pdf_from).
     pub primitive: u32,
-    /// Barycentric weights of the second and third corner of the triangle; 0 on other shapes.
-    pub barycentric: [f32; 2],
 }
 
 /// What a shape knows of a point on it, in its own space.
@@ -43,7 +41,6 @@ pub(crate) struct LocalSurface {
     /// `∂p/∂u` and `∂p/∂v`, where the shape has texture coordinates.
     pub(crate) tangents: Option<[Vec3; 2]>,
     pub(crate) primitive: u32,
-    pub(crate) barycentric: [f32; 2],
 }
 
 impl LocalSurface {
@@ -79,7 +76,6 @@ impl LocalSurface {
             dp_dv,
             shape,
             primitive: self.primitive,
-            barycentric: self.barycentric,
         }
     }
 }

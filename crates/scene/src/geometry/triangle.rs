@@ -14,6 +14,8 @@ pub(crate) struct Facet {
     pub(crate) normal: Vec3,
     /// The area, `|(v₁ − v₀) × (v₂ − v₀)| / 2`.
     pub(crate) area: f32,
+    /// The square of the longest side.
+    pub(crate) longest_squared: f32,
     /// The part of the error bound of a point that does not depend on the point.
     error: f32,
 }
@@ -49,6 +51,7 @@ impl Facet {
         Self {
             normal: normal(corners).unwrap_or(Vec3::Z),
             area: (0.5 * doubled_area) as f32,
+            longest_squared: e1.dot(e1).max(e2.dot(e2)).max(e3.dot(e3)) as f32,
             error: error as f32,
         }
     }

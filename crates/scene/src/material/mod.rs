@@ -6,6 +6,7 @@
 mod model;
 mod prepare;
 mod prepared;
+mod prepared_materials;
 
 use alloc::sync::Arc;
 use alloc::vec::Vec;
@@ -17,6 +18,7 @@ use etendue_brdf::{
 
 pub use model::Model;
 pub use prepared::{PreparedBsdf, Side};
+pub use prepared_materials::PreparedMaterials;
 
 use crate::texture::TextureId;
 

@@ -37,6 +37,26 @@ pub enum Model<'a> {
     Null(Null<Color>),
 }
 
+impl Model<'_> {
+    /// Whether sampling chooses among several lobes.
+    #[inline]
+    pub(super) fn chooses_lobe(&self) -> bool {
+        match self {
+            Self::Lambert(_)
+            | Self::OrenNayar(_)
+            | Self::OrenNayarQualitative(_)
+            | Self::SmoothConductor(_)
+            | Self::RoughConductor(_)
+            | Self::Null(_) => false,
+            Self::SmoothDielectric(_)
+            | Self::RoughDielectric(_)
+            | Self::ThinDielectric(_)
+            | Self::Plastic(_)
+            | Self::RoughPlastic(_) => true,
+        }
+    }
+}
+
 /// Implements [`Bsdf`] for an enumeration by handing every call to whichever variant is there.
 macro_rules! forward_bsdf {
     ($enum:ident: $($variant:ident),+) => {

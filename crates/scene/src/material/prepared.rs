@@ -32,6 +32,7 @@ impl Side {
 #[derive(Clone, Copy, Debug)]
 pub struct PreparedBsdf<'a> {
     inner: Mask<Placed<'a>>,
+    chooses_lobe: bool,
 }
 
 /// A model with its own front on one side of the surface.
@@ -90,7 +91,15 @@ impl Bsdf for Placed<'_> {
 impl<'a> PreparedBsdf<'a> {
     #[inline]
     pub(super) fn new(inner: Placed<'a>, opacity: f32) -> Self {
-        Self { inner: Mask::new(inner, Opacity::clamped(opacity)) }
+        let chooses_lobe = opacity < 1.0 || inner.model.chooses_lobe();
+        Self { inner: Mask::new(inner, Opacity::clamped(opacity)), chooses_lobe }
+    }
+
+    /// Whether [`sample`](Bsdf::sample) depends on `u_lobe`; where not, no number need be drawn for
+    /// it.
+    #[inline]
+    pub fn chooses_lobe(&self) -> bool {
+        self.chooses_lobe
     }
 }
 

@@ -23,6 +23,7 @@ impl Scene {
     ///
     /// `None` where nothing arrives: the light shows its back, the drawn point is black, or there is
     /// no such light.
+    #[inline]
     pub fn sample_light(
         &self,
         light: LightId,
@@ -46,6 +47,7 @@ impl Scene {
 
     /// Density per steradian at `from` with which [`sample_light`](Self::sample_light) draws a point
     /// that a ray has hit, given the light and its primitive; 0 for a light that is no shape.
+    #[inline]
     pub fn light_pdf_hit(&self, light: LightId, from: Vec3, hit: &SurfacePoint) -> f32 {
         match self.lights.get(light.0 as usize) {
             Some(Light::Area(area)) => self.shape_of(*area).pdf_from(from, hit),
