@@ -71,3 +71,8 @@ pub use light_sampler::{LightChoice, LightSampler, Receiver, Sides};
 pub use render::{Progress, Renderer, Rendering, ThreadError};
 pub use settings::{RenderSettings, Strategy};
 pub use statistics::{NonFiniteSamples, RayCounts, SampleAddress, Statistics};
+
+/// The examples of the project's README, compiled and run.
+#[cfg(doctest)]
+#[doc = include_str!("../../../README.md")]
+struct Readme;
