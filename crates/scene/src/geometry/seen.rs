@@ -173,8 +173,9 @@ impl Shape {
 /// sampling its solid angle, and several times faster: no side is longer than the distance of the
 /// nearest corner, so that `1/d²` varies by less than a factor of 4 over it.
 ///
-/// In the Cornell box, where a third of all light samples fall between this limit and half of it, the
-/// relative squared error grows by one or two percent, and the time shrinks by a tenth.
+/// In the Cornell box, where a third of all light samples lie between one and two sides away, the
+/// relative squared error is one or two percent larger than with twice the distance, and the time a
+/// tenth less.
 #[inline]
 fn looks_small<const N: usize>(longest_squared: f32, corners: &[Vec3; N]) -> bool {
     // Written so that NaN is not small.
