@@ -6,6 +6,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
+pub(crate) mod case;
 pub(crate) mod picture;
 
 pub(crate) use picture::Picture;
