@@ -121,7 +121,15 @@ impl<'a, 's> PathTracer<'a, 's> {
         let light_sampling = if useful { LightSampling::Useful } else { LightSampling::Useless };
         let several_infinite_lights =
             if scene.infinite_lights().len() > 1 { Several::Yes } else { Several::No };
-        Self { scene, materials, lights, settings, strategy, light_sampling, several_infinite_lights }
+        Self {
+            scene,
+            materials,
+            lights,
+            settings,
+            strategy,
+            light_sampling,
+            several_infinite_lights,
+        }
     }
 
     /// An estimate of the radiance that arrives along a ray of the camera.
