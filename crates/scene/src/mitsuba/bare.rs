@@ -5,6 +5,7 @@ use alloc::string::String;
 use alloc::vec::Vec;
 use std::path::Path;
 
+use super::image::texels;
 use super::shape::{Surface, add_surface, shaded};
 use super::{Context, LoadOptions, LoadedScene, bsdf, scene};
 use crate::geometry::Shape;
@@ -13,7 +14,7 @@ use crate::load::{Encoding, MeshFile, MtlMaterial, ObjMesh, ObjScene};
 use crate::load::{TexCoords, load_image, load_obj, load_ply};
 use crate::material::{Material, MaterialId};
 use crate::scene::PathSettings;
-use crate::texture::{Bitmap, BitmapImage, Filter, Texture, TextureId, UvTransform, Wrap};
+use crate::texture::{Bitmap, Filter, Texture, TextureId, UvTransform, Wrap};
 use crate::xml::{Leniency, parse_float, parse_list, parse_text};
 use crate::{Color, Location, SceneError};
 
@@ -95,8 +96,7 @@ fn mtl(
 
 fn bitmap(path: &Path) -> Result<Bitmap, SceneError> {
     let image = load_image(path, Encoding::Srgb)?;
-    let channels = image.channels() as u32;
-    BitmapImage::from_f32(image.width(), image.height(), channels, image.data())
+    texels(&image)
         .map(|image| Bitmap::new(image, Filter::Bilinear, Wrap::Repeat, UvTransform::IDENTITY))
         .map_err(|error| SceneError::scene(Location::file(path), format!("{error}")))
 }

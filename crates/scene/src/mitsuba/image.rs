@@ -5,8 +5,8 @@ use alloc::format;
 use super::Context;
 use super::reader::PluginReader;
 use crate::SceneError;
-use crate::load::{Encoding, load_image};
-use crate::texture::BitmapImage;
+use crate::load::{Encoding, Image, load_image};
+use crate::texture::{BitmapError, BitmapImage};
 
 /// The image that the parameter `filename` names.
 ///
@@ -27,7 +27,14 @@ pub(super) fn image(
         error
     })?;
     context.files.push(path);
+    texels(&image).map_err(|e| reader.error("filename", format!("{name}: {e}")))
+}
+
+/// A loaded image as the texels of a texture.
+///
+/// # Errors
+/// Texels that are NaN or infinite.
+pub(super) fn texels(image: &Image) -> Result<BitmapImage, BitmapError> {
     let channels = image.channels() as u32;
     BitmapImage::from_f32(image.width(), image.height(), channels, image.data())
-        .map_err(|e| reader.error("filename", format!("{name}: {e}")))
 }
