@@ -62,29 +62,25 @@ impl<T: Scalar> Bsdf for Broken<T> {
         Lobes { continuous: true, ..Lobes::default() }
     }
 
-    fn eval(&self, wo: BsdfVec<Self>, wi: BsdfVec<Self>) -> T {
+    fn eval_pdf(&self, wo: BsdfVec<Self>, wi: BsdfVec<Self>) -> (T, T) {
         if self.outside(wo, wi) {
-            return if self.fault == Fault::NegativeBehind { -T::FRAC_1_PI } else { T::ZERO };
+            let negative = self.fault == Fault::NegativeBehind;
+            return (if negative { -T::FRAC_1_PI } else { T::ZERO }, T::ZERO);
         }
         let sound = self.albedo * T::FRAC_1_PI;
-        match self.fault {
+        let f = match self.fault {
             Fault::WrongConstant => self.albedo / T::lit(3.0),
             Fault::OneWayFactor => sound * wo.z(),
             Fault::NanAtGrazing if wi.z() < T::lit(1e-6) => T::NAN,
             Fault::Cancels => (sound * wi.z() + T::lit(1e4)) - T::lit(1e4),
             _ => sound,
-        }
-    }
-
-    fn pdf(&self, wo: BsdfVec<Self>, wi: BsdfVec<Self>) -> T {
-        if self.outside(wo, wi) {
-            return T::ZERO;
-        }
-        match self.fault {
+        };
+        let pdf = match self.fault {
             Fault::SwappedAngle => wo.z() * T::FRAC_1_PI,
             Fault::DoubledDensity => T::TWO * wi.z() * T::FRAC_1_PI,
             _ => wi.z() * T::FRAC_1_PI,
-        }
+        };
+        (f, pdf)
     }
 
     fn sample(&self, wo: BsdfVec<Self>, _: T, u: [T; 2]) -> Option<Sample<T>> {
@@ -129,14 +125,6 @@ impl Bsdf for Mirror {
 
     fn lobes(&self) -> Lobes {
         Lobes { delta: true, transmission: true, ..Lobes::default() }
-    }
-
-    fn eval(&self, _: BsdfVec<Self>, _: BsdfVec<Self>) -> f64 {
-        0.0
-    }
-
-    fn pdf(&self, _: BsdfVec<Self>, _: BsdfVec<Self>) -> f64 {
-        0.0
     }
 
     fn sample(&self, wo: BsdfVec<Self>, u_lobe: f64, _: [f64; 2]) -> Option<Sample<f64>> {

@@ -39,6 +39,15 @@ pub struct Lobes {
     pub transmission: bool,
 }
 
+impl Lobes {
+    /// A continuum of reflected directions and nothing else.
+    pub const CONTINUOUS: Self = Self { continuous: true, delta: false, transmission: false };
+    /// Mirror reflection and nothing else.
+    pub const DELTA: Self = Self { continuous: false, delta: true, transmission: false };
+    /// Delta lobes on both sides of the surface.
+    pub const DELTA_THROUGH: Self = Self { continuous: false, delta: true, transmission: true };
+}
+
 /// A bidirectional scattering distribution function in the local frame, `n = +z`.
 ///
 /// `wo` points to the viewer and `wi` to the light; both are unit vectors pointing away from the
@@ -54,17 +63,25 @@ pub trait Bsdf {
     /// The parts this scattering function has.
     fn lobes(&self) -> Lobes;
 
-    /// Value of the continuous part `f(wo, wi)`, without the cosine, in sr⁻¹.
-    fn eval(&self, wo: BsdfVec<Self>, wi: BsdfVec<Self>) -> Self::Color;
-
-    /// Density per steradian with which `sample` draws `wi` from the continuous part, the
-    /// probability of choosing it included.
-    fn pdf(&self, wo: BsdfVec<Self>, wi: BsdfVec<Self>) -> BsdfReal<Self>;
-
-    /// Value and density at once, for models that share work between the two.
+    /// Value of the continuous part `f(wo, wi)`, without the cosine, in sr⁻¹, and the density per
+    /// steradian with which `sample` draws `wi` from it, the probability of choosing it included.
+    ///
+    /// The provided one is that of a model without a continuous part: nothing.
     #[inline]
-    fn eval_pdf(&self, wo: BsdfVec<Self>, wi: BsdfVec<Self>) -> (Self::Color, BsdfReal<Self>) {
-        (self.eval(wo, wi), self.pdf(wo, wi))
+    fn eval_pdf(&self, _wo: BsdfVec<Self>, _wi: BsdfVec<Self>) -> (Self::Color, BsdfReal<Self>) {
+        (Self::Color::black(), BsdfReal::<Self>::ZERO)
+    }
+
+    /// The value of [`eval_pdf`](Self::eval_pdf) alone; what belongs to the density alone is optimised away.
+    #[inline]
+    fn eval(&self, wo: BsdfVec<Self>, wi: BsdfVec<Self>) -> Self::Color {
+        self.eval_pdf(wo, wi).0
+    }
+
+    /// The density of [`eval_pdf`](Self::eval_pdf) alone.
+    #[inline]
+    fn pdf(&self, wo: BsdfVec<Self>, wi: BsdfVec<Self>) -> BsdfReal<Self> {
+        self.eval_pdf(wo, wi).1
     }
 
     /// Draws a direction. `u_lobe` chooses among lobes, `u` within the chosen one.

@@ -69,53 +69,32 @@ extern crate std;
 #[cfg(test)]
 extern crate alloc;
 
+mod adapter;
 mod bsdf;
-mod conductor;
-mod dielectric;
+mod diffuse;
 pub mod direction;
 pub mod fresnel;
-mod internal_scattering;
-mod lambert;
 #[cfg(test)]
 mod laws;
-mod mask;
+mod layered;
 pub mod microfacet;
-mod null;
-mod oren_nayar;
-mod oren_nayar_qualitative;
 mod param;
-mod plastic;
 pub mod quadrature;
 pub mod registry;
-mod rough_conductor;
-mod rough_dielectric;
-mod rough_plastic;
-mod smooth_conductor;
-mod smooth_dielectric;
-mod thin_dielectric;
-mod transmittance_table;
-mod two_sided;
+mod rough;
+mod smooth;
 
+pub use adapter::{Mask, TwoSided};
 pub use bsdf::{Bsdf, BsdfReal, BsdfVec, Density, Lobes, Sample};
-pub use conductor::Conductor;
-pub use dielectric::Dielectric;
-pub use internal_scattering::{InternalReflectance, InternalScattering};
-pub use lambert::Lambert;
-pub use mask::Mask;
+pub use diffuse::{Lambert, OrenNayar, OrenNayarQualitative};
+pub use layered::{
+    InternalReflectance, InternalScattering, Plastic, PlasticInterface, RoughPlastic,
+    TransmittanceTable,
+};
 pub use microfacet::{BeckmannLambda, Distribution, Masking, Microfacets};
-pub use null::Null;
-pub use oren_nayar::OrenNayar;
-pub use oren_nayar_qualitative::OrenNayarQualitative;
 pub use param::{Alpha, ComplexIor, Ior, Opacity, ParameterError, Reflectance, Sigma};
-pub use plastic::{Plastic, PlasticInterface};
-pub use rough_conductor::RoughConductor;
-pub use rough_dielectric::RoughDielectric;
-pub use rough_plastic::RoughPlastic;
-pub use smooth_conductor::SmoothConductor;
-pub use smooth_dielectric::SmoothDielectric;
-pub use thin_dielectric::ThinDielectric;
-pub use transmittance_table::TransmittanceTable;
-pub use two_sided::TwoSided;
+pub use rough::{Conductor, Dielectric, RoughConductor, RoughDielectric};
+pub use smooth::{Null, SmoothConductor, SmoothDielectric, ThinDielectric};
 
 /// Runs the README's example.
 #[cfg(doctest)]

@@ -2,6 +2,7 @@
 
 use etendue_math::{Real, Spectrum};
 
+use crate::registry::{Albedo, Energy, ModelInfo, Reciprocity, parameter};
 use crate::{
     Alpha, Bsdf, BsdfReal, BsdfVec, ComplexIor, Distribution, Lobes, Masking, Microfacets,
     ParameterError, Reflectance, RoughConductor, Sample, SmoothConductor,
@@ -81,14 +82,6 @@ impl<C: Spectrum> Bsdf for Conductor<C> {
         either!(self, m => m.lobes(); Smooth, Rough)
     }
     #[inline]
-    fn eval(&self, wo: BsdfVec<Self>, wi: BsdfVec<Self>) -> C {
-        either!(self, m => m.eval(wo, wi); Smooth, Rough)
-    }
-    #[inline]
-    fn pdf(&self, wo: BsdfVec<Self>, wi: BsdfVec<Self>) -> BsdfReal<Self> {
-        either!(self, m => m.pdf(wo, wi); Smooth, Rough)
-    }
-    #[inline]
     fn eval_pdf(&self, wo: BsdfVec<Self>, wi: BsdfVec<Self>) -> (C, BsdfReal<Self>) {
         either!(self, m => m.eval_pdf(wo, wi); Smooth, Rough)
     }
@@ -106,6 +99,27 @@ impl<C: Spectrum> Bsdf for Conductor<C> {
         either!(self, m => m.albedo(wo); Smooth, Rough)
     }
 }
+
+/// The entry of the model in the [registry](crate::registry).
+pub(crate) const INFO: ModelInfo = ModelInfo {
+    name: "conductor",
+    type_name: "Conductor",
+    parameters: &[
+        parameter::COMPLEX_ETA,
+        parameter::K,
+        parameter::DISTRIBUTION,
+        parameter::ALPHA_X,
+        parameter::ALPHA_Y,
+        parameter::MASKING,
+        parameter::KS,
+    ],
+    reciprocity: Reciprocity::Reciprocal,
+    energy: Energy::Conserves,
+    lobes: Lobes { continuous: true, delta: true, transmission: false },
+    albedo: Albedo::Inner,
+    density: "that of the variant chosen at construction",
+    source: "smooth-conductor, or rough-conductor for alpha >= 1e-8",
+};
 
 #[cfg(test)]
 mod tests {

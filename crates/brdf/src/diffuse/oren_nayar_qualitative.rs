@@ -3,8 +3,10 @@
 use etendue_math::{Real, Spectrum, Vector3};
 use etendue_sampling::warp::cosine_hemisphere;
 
-use crate::bsdf::{above, both_above};
-use crate::{Bsdf, BsdfReal, BsdfVec, Density, Lobes, Reflectance, Sample, Sigma};
+use super::cosine::cosine_sample;
+use crate::bsdf::both_above;
+use crate::registry::{Albedo, Energy, ModelInfo, Reciprocity, parameter};
+use crate::{Bsdf, BsdfReal, BsdfVec, Lobes, Reflectance, Sample, Sigma};
 
 /// V-cavities with Lambertian facets, two-term fit without interreflection.
 ///
@@ -47,22 +49,18 @@ impl<C: Spectrum> Bsdf for OrenNayarQualitative<C> {
 
     #[inline]
     fn lobes(&self) -> Lobes {
-        Lobes { continuous: true, ..Lobes::default() }
+        Lobes::CONTINUOUS
     }
 
     #[inline]
-    fn eval(&self, wo: BsdfVec<Self>, wi: BsdfVec<Self>) -> C {
+    fn eval_pdf(&self, wo: BsdfVec<Self>, wi: BsdfVec<Self>) -> (C, BsdfReal<Self>) {
         if !both_above(wo, wi) {
-            return C::black();
+            return (C::black(), C::Real::ZERO);
         }
         let projection = (wo.x() * wi.x() + wo.y() * wi.y()).max(C::Real::ZERO);
         let lobe = self.b * (projection / wo.z().max(wi.z()));
-        self.reflectance.scale(C::Real::FRAC_1_PI * (self.a + lobe))
-    }
-
-    #[inline]
-    fn pdf(&self, wo: BsdfVec<Self>, wi: BsdfVec<Self>) -> BsdfReal<Self> {
-        if both_above(wo, wi) { cosine_hemisphere::pdf::<C::Real>(wi) } else { C::Real::ZERO }
+        let value = self.reflectance.scale(C::Real::FRAC_1_PI * (self.a + lobe));
+        (value, cosine_hemisphere::pdf::<C::Real>(wi))
     }
 
     #[inline]
@@ -76,21 +74,18 @@ impl<C: Spectrum> Bsdf for OrenNayarQualitative<C> {
     }
 }
 
-/// A cosine-weighted sample of a diffuse model: weight `π f`.
-#[inline]
-pub(crate) fn cosine_sample<B: Bsdf>(
-    model: &B,
-    wo: BsdfVec<B>,
-    u: [BsdfReal<B>; 2],
-) -> Option<Sample<B::Color>> {
-    let wi = cosine_hemisphere::from_square(u);
-    if !above(wo) || !above(wi) {
-        return None;
-    }
-    let weight = model.eval(wo, wi).scale(BsdfReal::<B>::PI);
-    let density = Density::Continuous(cosine_hemisphere::pdf::<BsdfReal<B>>(wi));
-    (!weight.is_black()).then_some(Sample { wi, weight, density, eta: BsdfReal::<B>::ONE })
-}
+/// The entry of the model in the [registry](crate::registry).
+pub(crate) const INFO: ModelInfo = ModelInfo {
+    name: "oren-nayar-qualitative",
+    type_name: "OrenNayarQualitative",
+    parameters: &[parameter::REFLECTANCE, parameter::SIGMA],
+    reciprocity: Reciprocity::Reciprocal,
+    energy: Energy::Gains { maximum: 1.0152, at: "sigma = 0.2, cos -> 0" },
+    lobes: Lobes::CONTINUOUS,
+    albedo: Albedo::Quadrature,
+    density: "cosine",
+    source: "Oren and Nayar 1994, eq. 30",
+};
 
 #[cfg(test)]
 mod tests {

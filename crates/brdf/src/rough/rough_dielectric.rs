@@ -2,10 +2,11 @@
 
 use etendue_math::{Real, Spectrum, Vec3, Vector3};
 
+use super::rough_conductor::reflection_pdf;
 use crate::bsdf::above;
 use crate::direction::{half_vector, reflect_about};
 use crate::fresnel::{RelativeIndex, refract_at};
-use crate::rough_conductor::reflection_pdf;
+use crate::registry::{Albedo, Energy, ModelInfo, Reciprocity, parameter};
 use crate::{
     Bsdf, BsdfReal, BsdfVec, Density, Ior, Lobes, Microfacets, ParameterError, Reflectance, Sample,
 };
@@ -133,16 +134,6 @@ impl<C: Spectrum> Bsdf for RoughDielectric<C> {
     }
 
     #[inline]
-    fn eval(&self, wo: BsdfVec<Self>, wi: BsdfVec<Self>) -> C {
-        self.eval_pdf(wo, wi).0
-    }
-
-    #[inline]
-    fn pdf(&self, wo: BsdfVec<Self>, wi: BsdfVec<Self>) -> BsdfReal<Self> {
-        self.eval_pdf(wo, wi).1
-    }
-
-    #[inline]
     fn eval_pdf(&self, wo: BsdfVec<Self>, wi: BsdfVec<Self>) -> (C, BsdfReal<Self>) {
         let (wo, wi, index) = self.upright(wo, wi);
         if above(wo) && above(wi) {
@@ -198,6 +189,27 @@ impl<C: Spectrum> Bsdf for RoughDielectric<C> {
         Some(Sample { wi, weight, density: Density::Continuous(pdf), eta: eta_i })
     }
 }
+
+/// The entry of the model in the [registry](crate::registry).
+pub(crate) const INFO: ModelInfo = ModelInfo {
+    name: "rough-dielectric",
+    type_name: "RoughDielectric",
+    parameters: &[
+        parameter::ROUGH_ETA,
+        parameter::DISTRIBUTION,
+        parameter::ALPHA_X,
+        parameter::ALPHA_Y,
+        parameter::MASKING,
+        parameter::KS,
+        parameter::KT,
+    ],
+    reciprocity: Reciprocity::UpToSquaredIndex,
+    energy: Energy::Conserves,
+    lobes: Lobes { continuous: true, delta: false, transmission: true },
+    albedo: Albedo::Quadrature,
+    density: "visible normals, reflection with probability F",
+    source: "Walter et al. 2007; Heitz and d'Eon 2014",
+};
 
 #[cfg(test)]
 mod tests {

@@ -3,11 +3,12 @@
 use etendue_math::{Real, Spectrum, Vector3};
 use etendue_sampling::warp::cosine_hemisphere;
 
+use super::internal_scattering::{specular_probability, specular_share};
 use crate::bsdf::{above, both_above};
 use crate::direction::{half_vector, reflect_about};
 use crate::fresnel::dielectric;
-use crate::internal_scattering::{specular_probability, specular_share};
-use crate::rough_conductor::reflection_pdf;
+use crate::registry::{Albedo, Energy, ModelInfo, Reciprocity, parameter};
+use crate::rough::rough_conductor::reflection_pdf;
 use crate::{
     Bsdf, BsdfReal, BsdfVec, Density, InternalScattering, Lobes, Reflectance, Sample,
     TransmittanceTable,
@@ -76,17 +77,7 @@ impl<C: Spectrum> Bsdf for RoughPlastic<'_, C> {
 
     #[inline]
     fn lobes(&self) -> Lobes {
-        Lobes { continuous: true, ..Lobes::default() }
-    }
-
-    #[inline]
-    fn eval(&self, wo: BsdfVec<Self>, wi: BsdfVec<Self>) -> C {
-        self.eval_pdf(wo, wi).0
-    }
-
-    #[inline]
-    fn pdf(&self, wo: BsdfVec<Self>, wi: BsdfVec<Self>) -> BsdfReal<Self> {
-        self.eval_pdf(wo, wi).1
+        Lobes::CONTINUOUS
     }
 
     #[inline]
@@ -133,6 +124,28 @@ impl<C: Spectrum> Bsdf for RoughPlastic<'_, C> {
         Some(Sample { wi, weight, density: Density::Continuous(pdf), eta: C::Real::ONE })
     }
 }
+
+/// The entry of the model in the [registry](crate::registry).
+pub(crate) const INFO: ModelInfo = ModelInfo {
+    name: "rough-plastic",
+    type_name: "RoughPlastic",
+    parameters: &[
+        parameter::ETA,
+        parameter::DISTRIBUTION,
+        parameter::ALPHA,
+        parameter::MASKING,
+        parameter::REFLECTANCE,
+        parameter::KS,
+        parameter::SCATTERING,
+        parameter::INTERNAL,
+    ],
+    reciprocity: Reciprocity::Reciprocal,
+    energy: Energy::Conserves,
+    lobes: Lobes::CONTINUOUS,
+    albedo: Albedo::Quadrature,
+    density: "mixture of visible normals and cosine",
+    source: "Mitsuba, roughplastic",
+};
 
 #[cfg(test)]
 mod tests {

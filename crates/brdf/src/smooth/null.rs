@@ -4,6 +4,7 @@ use core::marker::PhantomData;
 
 use etendue_math::{Real, Spectrum, Vector3};
 
+use crate::registry::{Albedo, Energy, ModelInfo, Reciprocity};
 use crate::{Bsdf, BsdfReal, BsdfVec, Density, Lobes, Sample};
 
 /// Pass-through: every direction goes straight on. The index-matched limit of every dielectric.
@@ -31,17 +32,7 @@ impl<C: Spectrum> Bsdf for Null<C> {
 
     #[inline]
     fn lobes(&self) -> Lobes {
-        Lobes { continuous: false, delta: true, transmission: true }
-    }
-
-    #[inline]
-    fn eval(&self, _wo: BsdfVec<Self>, _wi: BsdfVec<Self>) -> C {
-        C::black()
-    }
-
-    #[inline]
-    fn pdf(&self, _wo: BsdfVec<Self>, _wi: BsdfVec<Self>) -> BsdfReal<Self> {
-        C::Real::ZERO
+        Lobes::DELTA_THROUGH
     }
 
     #[inline]
@@ -72,6 +63,19 @@ pub(crate) fn exists<V: Vector3>(w: V) -> bool {
     let squared = w.length_squared();
     squared > V::Scalar::ZERO && squared < V::Scalar::INFINITY
 }
+
+/// The entry of the model in the [registry](crate::registry).
+pub(crate) const INFO: ModelInfo = ModelInfo {
+    name: "null",
+    type_name: "Null",
+    parameters: &[],
+    reciprocity: Reciprocity::Reciprocal,
+    energy: Energy::Conserves,
+    lobes: Lobes::DELTA_THROUGH,
+    albedo: Albedo::ClosedForm,
+    density: "delta",
+    source: "index-matched limit of a dielectric",
+};
 
 #[cfg(test)]
 mod tests {

@@ -3,8 +3,9 @@
 use etendue_math::{Real, Spectrum, Vec3, Vector3};
 use etendue_sampling::warp::cosine_hemisphere;
 
+use super::cosine::cosine_sample;
 use crate::bsdf::both_above;
-use crate::oren_nayar_qualitative::cosine_sample;
+use crate::registry::{Albedo, Energy, ModelInfo, Reciprocity, parameter};
 use crate::{Bsdf, BsdfReal, BsdfVec, Lobes, Reflectance, Sample, Sigma};
 
 /// V-cavities with Lambertian facets, one interreflection included.
@@ -131,13 +132,13 @@ impl<C: Spectrum> Bsdf for OrenNayar<C> {
 
     #[inline]
     fn lobes(&self) -> Lobes {
-        Lobes { continuous: true, ..Lobes::default() }
+        Lobes::CONTINUOUS
     }
 
     #[inline]
-    fn eval(&self, wo: BsdfVec<Self>, wi: BsdfVec<Self>) -> C {
+    fn eval_pdf(&self, wo: BsdfVec<Self>, wi: BsdfVec<Self>) -> (C, BsdfReal<Self>) {
         if !both_above(wo, wi) {
-            return C::black();
+            return (C::black(), C::Real::ZERO);
         }
         let one = <C::Real as Real>::ONE;
         let w = Angles::<C::Real>::new(wo, wi);
@@ -149,13 +150,10 @@ impl<C: Spectrum> Bsdf for OrenNayar<C> {
         let tan_mean = (w.sin_alpha + w.sin_beta) / (w.cos_alpha + w.cos_beta);
         let direct = self.c1 + c2 * w.cos_phi * tan_beta + c3 * w.one_minus_abs_cos_phi * tan_mean;
         let twice = self.c4 * (one - w.cos_phi * b * b);
-        self.reflectance
-            .map(|rho| (rho * C::Real::FRAC_1_PI * (direct + rho * twice)).max(C::Real::ZERO))
-    }
-
-    #[inline]
-    fn pdf(&self, wo: BsdfVec<Self>, wi: BsdfVec<Self>) -> BsdfReal<Self> {
-        if both_above(wo, wi) { cosine_hemisphere::pdf::<C::Real>(wi) } else { C::Real::ZERO }
+        let value = self
+            .reflectance
+            .map(|rho| (rho * C::Real::FRAC_1_PI * (direct + rho * twice)).max(C::Real::ZERO));
+        (value, cosine_hemisphere::pdf::<C::Real>(wi))
     }
 
     #[inline]
@@ -168,6 +166,19 @@ impl<C: Spectrum> Bsdf for OrenNayar<C> {
         cosine_sample(self, wo, u)
     }
 }
+
+/// The entry of the model in the [registry](crate::registry).
+pub(crate) const INFO: ModelInfo = ModelInfo {
+    name: "oren-nayar",
+    type_name: "OrenNayar",
+    parameters: &[parameter::REFLECTANCE, parameter::SIGMA],
+    reciprocity: Reciprocity::Reciprocal,
+    energy: Energy::Gains { maximum: 1.0509, at: "sigma = 0.3, cos -> 0" },
+    lobes: Lobes::CONTINUOUS,
+    albedo: Albedo::Quadrature,
+    density: "cosine",
+    source: "Oren and Nayar 1994, eqs. 27 to 29",
+};
 
 #[cfg(test)]
 mod tests {

@@ -2,6 +2,7 @@
 
 use etendue_math::{Real, Spectrum, Vector3};
 
+use crate::registry::{Albedo, Energy, ModelInfo, Reciprocity, parameter};
 use crate::{Bsdf, BsdfReal, BsdfVec, Lobes, Sample};
 
 /// A reflection model for each side of an opaque surface.
@@ -57,22 +58,6 @@ impl<F: Bsdf, B: Bsdf<Color = F::Color>> Bsdf for TwoSided<F, B> {
     }
 
     #[inline]
-    fn eval(&self, wo: BsdfVec<Self>, wi: BsdfVec<Self>) -> F::Color {
-        self.eval_pdf(wo, wi).0
-    }
-
-    #[inline]
-    fn pdf(&self, wo: BsdfVec<Self>, wi: BsdfVec<Self>) -> BsdfReal<Self> {
-        if !same_side(wo, wi) {
-            BsdfReal::<Self>::ZERO
-        } else if wo.z() < BsdfReal::<Self>::ZERO {
-            self.back.pdf(wo.flip_z(), wi.flip_z())
-        } else {
-            self.front.pdf(wo, wi)
-        }
-    }
-
-    #[inline]
     fn eval_pdf(&self, wo: BsdfVec<Self>, wi: BsdfVec<Self>) -> (F::Color, BsdfReal<Self>) {
         if !same_side(wo, wi) {
             (F::Color::black(), BsdfReal::<Self>::ZERO)
@@ -110,6 +95,19 @@ impl<F: Bsdf, B: Bsdf<Color = F::Color>> Bsdf for TwoSided<F, B> {
         }
     }
 }
+
+/// The entry of the model in the [registry](crate::registry).
+pub(crate) const INFO: ModelInfo = ModelInfo {
+    name: "two-sided",
+    type_name: "TwoSided",
+    parameters: &[parameter::named("front", "any model"), parameter::named("back", "any model")],
+    reciprocity: Reciprocity::Reciprocal,
+    energy: Energy::Conserves,
+    lobes: Lobes { continuous: true, delta: true, transmission: false },
+    albedo: Albedo::Inner,
+    density: "that of the side",
+    source: "Mitsuba, twosided",
+};
 
 #[cfg(test)]
 mod tests {

@@ -5,6 +5,7 @@ use etendue_math::{Real, Spectrum, Vector3};
 use crate::bsdf::above;
 use crate::direction::reflect;
 use crate::fresnel::{Refraction, RelativeIndex};
+use crate::registry::{Albedo, Energy, ModelInfo, Reciprocity, parameter};
 use crate::{Bsdf, BsdfReal, BsdfVec, Density, Ior, Lobes, Reflectance, Sample};
 
 /// Smooth interface between two dielectrics: reflection and refraction.
@@ -63,17 +64,7 @@ impl<C: Spectrum> Bsdf for SmoothDielectric<C> {
 
     #[inline]
     fn lobes(&self) -> Lobes {
-        Lobes { continuous: false, delta: true, transmission: true }
-    }
-
-    #[inline]
-    fn eval(&self, _wo: BsdfVec<Self>, _wi: BsdfVec<Self>) -> C {
-        C::black()
-    }
-
-    #[inline]
-    fn pdf(&self, _wo: BsdfVec<Self>, _wi: BsdfVec<Self>) -> BsdfReal<Self> {
-        C::Real::ZERO
+        Lobes::DELTA_THROUGH
     }
 
     #[inline]
@@ -124,6 +115,19 @@ impl<C: Spectrum> Bsdf for SmoothDielectric<C> {
         Some(self.specular_reflectance.scale(r) + self.specular_transmittance.scale(t))
     }
 }
+
+/// The entry of the model in the [registry](crate::registry).
+pub(crate) const INFO: ModelInfo = ModelInfo {
+    name: "smooth-dielectric",
+    type_name: "SmoothDielectric",
+    parameters: &[parameter::ETA, parameter::KS, parameter::KT],
+    reciprocity: Reciprocity::UpToSquaredIndex,
+    energy: Energy::Conserves,
+    lobes: Lobes::DELTA_THROUGH,
+    albedo: Albedo::ClosedForm,
+    density: "delta, reflection with probability F",
+    source: "Born and Wolf, section 1.5",
+};
 
 #[cfg(test)]
 mod tests {

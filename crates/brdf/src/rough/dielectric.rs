@@ -2,7 +2,8 @@
 
 use etendue_math::Spectrum;
 
-use crate::conductor::{either, rough_widths};
+use super::conductor::{either, rough_widths};
+use crate::registry::{Albedo, Energy, ModelInfo, Reciprocity, parameter};
 use crate::{
     Bsdf, BsdfReal, BsdfVec, Distribution, Ior, Lobes, Masking, Microfacets, Null, ParameterError,
     Reflectance, RoughDielectric, Sample, SmoothDielectric,
@@ -65,14 +66,6 @@ impl<C: Spectrum> Bsdf for Dielectric<C> {
         either!(self, m => m.lobes(); Matched, Smooth, Rough)
     }
     #[inline]
-    fn eval(&self, wo: BsdfVec<Self>, wi: BsdfVec<Self>) -> C {
-        either!(self, m => m.eval(wo, wi); Matched, Smooth, Rough)
-    }
-    #[inline]
-    fn pdf(&self, wo: BsdfVec<Self>, wi: BsdfVec<Self>) -> BsdfReal<Self> {
-        either!(self, m => m.pdf(wo, wi); Matched, Smooth, Rough)
-    }
-    #[inline]
     fn eval_pdf(&self, wo: BsdfVec<Self>, wi: BsdfVec<Self>) -> (C, BsdfReal<Self>) {
         either!(self, m => m.eval_pdf(wo, wi); Matched, Smooth, Rough)
     }
@@ -90,6 +83,27 @@ impl<C: Spectrum> Bsdf for Dielectric<C> {
         either!(self, m => m.albedo(wo); Matched, Smooth, Rough)
     }
 }
+
+/// The entry of the model in the [registry](crate::registry).
+pub(crate) const INFO: ModelInfo = ModelInfo {
+    name: "dielectric",
+    type_name: "Dielectric",
+    parameters: &[
+        parameter::ETA,
+        parameter::DISTRIBUTION,
+        parameter::ALPHA_X,
+        parameter::ALPHA_Y,
+        parameter::MASKING,
+        parameter::KS,
+        parameter::KT,
+    ],
+    reciprocity: Reciprocity::UpToSquaredIndex,
+    energy: Energy::Conserves,
+    lobes: Lobes { continuous: true, delta: true, transmission: true },
+    albedo: Albedo::Inner,
+    density: "that of the variant chosen at construction",
+    source: "null for eta = 1, smooth-dielectric, or rough-dielectric for alpha >= 1e-8",
+};
 
 #[cfg(test)]
 mod tests {

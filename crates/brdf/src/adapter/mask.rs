@@ -2,7 +2,8 @@
 
 use etendue_math::{Real, Spectrum};
 
-use crate::null::exists;
+use crate::registry::{Albedo, Energy, ModelInfo, Reciprocity, parameter};
+use crate::smooth::null::exists;
 use crate::{Bsdf, BsdfReal, BsdfVec, Density, Lobes, Opacity, Sample};
 
 /// A model blended with straight pass-through.
@@ -38,16 +39,6 @@ impl<B: Bsdf> Bsdf for Mask<B> {
         } else {
             inner
         }
-    }
-
-    #[inline]
-    fn eval(&self, wo: BsdfVec<Self>, wi: BsdfVec<Self>) -> B::Color {
-        self.inner.eval(wo, wi).scale(self.opacity)
-    }
-
-    #[inline]
-    fn pdf(&self, wo: BsdfVec<Self>, wi: BsdfVec<Self>) -> BsdfReal<Self> {
-        self.inner.pdf(wo, wi) * self.opacity
     }
 
     #[inline]
@@ -88,6 +79,19 @@ impl<B: Bsdf> Bsdf for Mask<B> {
         Some(self.inner.albedo(wo)?.scale(self.opacity) + B::Color::splat(through))
     }
 }
+
+/// The entry of the model in the [registry](crate::registry).
+pub(crate) const INFO: ModelInfo = ModelInfo {
+    name: "mask",
+    type_name: "Mask",
+    parameters: &[parameter::named("opacity", "in [0, 1]"), parameter::named("inner", "any model")],
+    reciprocity: Reciprocity::Reciprocal,
+    energy: Energy::Conserves,
+    lobes: Lobes { continuous: true, delta: true, transmission: true },
+    albedo: Albedo::Inner,
+    density: "the inner one with probability opacity",
+    source: "Mitsuba, mask",
+};
 
 #[cfg(test)]
 mod tests {

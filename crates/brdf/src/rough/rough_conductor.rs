@@ -4,7 +4,8 @@ use etendue_math::{Real, Spectrum, Vector3};
 
 use crate::bsdf::{above, both_above};
 use crate::direction::{half_vector, reflect_about};
-use crate::smooth_conductor::conductor_reflectance;
+use crate::registry::{Albedo, Energy, ModelInfo, Reciprocity, parameter};
+use crate::smooth::smooth_conductor::conductor_reflectance;
 use crate::{
     Bsdf, BsdfReal, BsdfVec, ComplexIor, Density, Lobes, Microfacets, Reflectance, Sample,
 };
@@ -74,21 +75,7 @@ impl<C: Spectrum> Bsdf for RoughConductor<C> {
 
     #[inline]
     fn lobes(&self) -> Lobes {
-        Lobes { continuous: true, ..Lobes::default() }
-    }
-
-    #[inline]
-    fn eval(&self, wo: BsdfVec<Self>, wi: BsdfVec<Self>) -> C {
-        self.eval_pdf(wo, wi).0
-    }
-
-    #[inline]
-    fn pdf(&self, wo: BsdfVec<Self>, wi: BsdfVec<Self>) -> BsdfReal<Self> {
-        if !both_above(wo, wi) {
-            return C::Real::ZERO;
-        }
-        half_vector(wo, wi)
-            .map_or(C::Real::ZERO, |(h, _)| reflection_pdf(&self.facets, wo, self.facets.ndf(h)))
+        Lobes::CONTINUOUS
     }
 
     #[inline]
@@ -137,6 +124,27 @@ pub(crate) fn reflection_pdf<T: Real>(
     let area = T::lit(4.0) * facets.projected_area(wo);
     if area > T::ZERO { (d / area).min(T::MAX) } else { T::ZERO }
 }
+
+/// The entry of the model in the [registry](crate::registry).
+pub(crate) const INFO: ModelInfo = ModelInfo {
+    name: "rough-conductor",
+    type_name: "RoughConductor",
+    parameters: &[
+        parameter::COMPLEX_ETA,
+        parameter::K,
+        parameter::DISTRIBUTION,
+        parameter::ALPHA_X,
+        parameter::ALPHA_Y,
+        parameter::MASKING,
+        parameter::KS,
+    ],
+    reciprocity: Reciprocity::Reciprocal,
+    energy: Energy::Conserves,
+    lobes: Lobes::CONTINUOUS,
+    albedo: Albedo::Quadrature,
+    density: "visible normals",
+    source: "Walter et al. 2007; Heitz 2014, 2018; Dupuy and Benyoub 2023",
+};
 
 #[cfg(test)]
 mod tests {

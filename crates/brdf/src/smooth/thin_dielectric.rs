@@ -5,6 +5,7 @@ use etendue_math::{Real, Spectrum, Vector3};
 use crate::bsdf::above;
 use crate::direction::reflect;
 use crate::fresnel::dielectric;
+use crate::registry::{Albedo, Energy, ModelInfo, Reciprocity, parameter};
 use crate::{Bsdf, BsdfReal, BsdfVec, Density, Ior, Lobes, Reflectance, Sample};
 
 /// A slab so thin that light leaves where it entered, all internal reflections summed.
@@ -61,17 +62,7 @@ impl<C: Spectrum> Bsdf for ThinDielectric<C> {
 
     #[inline]
     fn lobes(&self) -> Lobes {
-        Lobes { continuous: false, delta: true, transmission: true }
-    }
-
-    #[inline]
-    fn eval(&self, _wo: BsdfVec<Self>, _wi: BsdfVec<Self>) -> C {
-        C::black()
-    }
-
-    #[inline]
-    fn pdf(&self, _wo: BsdfVec<Self>, _wi: BsdfVec<Self>) -> BsdfReal<Self> {
-        C::Real::ZERO
+        Lobes::DELTA_THROUGH
     }
 
     #[inline]
@@ -107,6 +98,19 @@ impl<C: Spectrum> Bsdf for ThinDielectric<C> {
         Some(self.specular_reflectance.scale(r) + self.specular_transmittance.scale(t))
     }
 }
+
+/// The entry of the model in the [registry](crate::registry).
+pub(crate) const INFO: ModelInfo = ModelInfo {
+    name: "thin-dielectric",
+    type_name: "ThinDielectric",
+    parameters: &[parameter::ETA, parameter::KS, parameter::KT],
+    reciprocity: Reciprocity::Reciprocal,
+    energy: Energy::Conserves,
+    lobes: Lobes::DELTA_THROUGH,
+    albedo: Albedo::ClosedForm,
+    density: "delta, reflection with probability 2F/(1 + F)",
+    source: "Mitsuba, thindielectric",
+};
 
 #[cfg(test)]
 mod tests {

@@ -3,12 +3,13 @@
 use etendue_math::{Real, Spectrum, Vector3};
 use etendue_sampling::warp::cosine_hemisphere;
 
+use super::internal_scattering::{specular_probability, specular_share};
 use crate::bsdf::{above, both_above};
 use crate::direction::reflect;
 use crate::fresnel::{
     dielectric, dielectric_average, dielectric_average_fit, dielectric_transmittance,
 };
-use crate::internal_scattering::{specular_probability, specular_share};
+use crate::registry::{Albedo, Energy, ModelInfo, Reciprocity, parameter};
 use crate::{
     Bsdf, BsdfReal, BsdfVec, Density, InternalReflectance, InternalScattering, Ior, Lobes,
     Reflectance, Sample,
@@ -122,24 +123,6 @@ impl<C: Spectrum> Bsdf for Plastic<C> {
     }
 
     #[inline]
-    fn eval(&self, wo: BsdfVec<Self>, wi: BsdfVec<Self>) -> C {
-        if !both_above(wo, wi) {
-            return C::black();
-        }
-        let t = self.transmittance(wo.z()) * self.transmittance(wi.z());
-        self.base.scale(t * self.interface.inverse_eta_squared * C::Real::FRAC_1_PI)
-    }
-
-    #[inline]
-    fn pdf(&self, wo: BsdfVec<Self>, wi: BsdfVec<Self>) -> BsdfReal<Self> {
-        if !both_above(wo, wi) {
-            return C::Real::ZERO;
-        }
-        let mirror = self.mirror_probability(wo.z(), self.transmittance(wo.z()));
-        (C::Real::ONE - mirror) * cosine_hemisphere::pdf::<C::Real>(wi)
-    }
-
-    #[inline]
     fn eval_pdf(&self, wo: BsdfVec<Self>, wi: BsdfVec<Self>) -> (C, BsdfReal<Self>) {
         if !both_above(wo, wi) {
             return (C::black(), C::Real::ZERO);
@@ -191,6 +174,25 @@ impl<C: Spectrum> Bsdf for Plastic<C> {
         Some(mirror + self.base.scale(self.transmittance(wo.z()) * self.interface.escape))
     }
 }
+
+/// The entry of the model in the [registry](crate::registry).
+pub(crate) const INFO: ModelInfo = ModelInfo {
+    name: "plastic",
+    type_name: "Plastic",
+    parameters: &[
+        parameter::ETA,
+        parameter::REFLECTANCE,
+        parameter::KS,
+        parameter::SCATTERING,
+        parameter::INTERNAL,
+    ],
+    reciprocity: Reciprocity::Reciprocal,
+    energy: Energy::Conserves,
+    lobes: Lobes { continuous: true, delta: true, transmission: false },
+    albedo: Albedo::ClosedForm,
+    density: "mirror or cosine, by Fresnel and mean colours",
+    source: "Mitsuba, plastic; Wolff 1994",
+};
 
 #[cfg(test)]
 mod tests {

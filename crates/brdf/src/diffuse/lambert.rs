@@ -4,6 +4,7 @@ use etendue_math::{Real, Spectrum};
 use etendue_sampling::warp::cosine_hemisphere;
 
 use crate::bsdf::{above, both_above};
+use crate::registry::{Albedo, Energy, ModelInfo, Reciprocity, parameter};
 use crate::{Bsdf, BsdfReal, BsdfVec, Density, Lobes, Reflectance, Sample};
 
 /// Ideal diffuse reflection.
@@ -49,17 +50,15 @@ impl<C: Spectrum> Bsdf for Lambert<C> {
 
     #[inline]
     fn lobes(&self) -> Lobes {
-        Lobes { continuous: true, ..Lobes::default() }
+        Lobes::CONTINUOUS
     }
 
     #[inline]
-    fn eval(&self, wo: BsdfVec<Self>, wi: BsdfVec<Self>) -> C {
-        if both_above(wo, wi) { self.reflectance.scale(C::Real::FRAC_1_PI) } else { C::black() }
-    }
-
-    #[inline]
-    fn pdf(&self, wo: BsdfVec<Self>, wi: BsdfVec<Self>) -> BsdfReal<Self> {
-        if both_above(wo, wi) { cosine_hemisphere::pdf::<C::Real>(wi) } else { C::Real::ZERO }
+    fn eval_pdf(&self, wo: BsdfVec<Self>, wi: BsdfVec<Self>) -> (C, BsdfReal<Self>) {
+        if !both_above(wo, wi) {
+            return (C::black(), C::Real::ZERO);
+        }
+        (self.reflectance.scale(C::Real::FRAC_1_PI), cosine_hemisphere::pdf::<C::Real>(wi))
     }
 
     #[inline]
@@ -86,6 +85,19 @@ impl<C: Spectrum> Bsdf for Lambert<C> {
         Some(if above(wo) { self.reflectance } else { C::black() })
     }
 }
+
+/// The entry of the model in the [registry](crate::registry).
+pub(crate) const INFO: ModelInfo = ModelInfo {
+    name: "lambert",
+    type_name: "Lambert",
+    parameters: &[parameter::REFLECTANCE],
+    reciprocity: Reciprocity::Reciprocal,
+    energy: Energy::Conserves,
+    lobes: Lobes::CONTINUOUS,
+    albedo: Albedo::ClosedForm,
+    density: "cosine",
+    source: "Lambert 1760",
+};
 
 #[cfg(test)]
 mod tests {

@@ -4,6 +4,7 @@ use etendue_math::{Real, Spectrum, Vector3};
 
 use crate::bsdf::above;
 use crate::direction::reflect;
+use crate::registry::{Albedo, Energy, ModelInfo, Reciprocity, parameter};
 use crate::{Bsdf, BsdfReal, BsdfVec, ComplexIor, Density, Lobes, Reflectance, Sample, fresnel};
 
 /// Smooth conductor: specular reflection, nothing else.
@@ -52,17 +53,7 @@ impl<C: Spectrum> Bsdf for SmoothConductor<C> {
 
     #[inline]
     fn lobes(&self) -> Lobes {
-        Lobes { delta: true, ..Lobes::default() }
-    }
-
-    #[inline]
-    fn eval(&self, _wo: BsdfVec<Self>, _wi: BsdfVec<Self>) -> C {
-        C::black()
-    }
-
-    #[inline]
-    fn pdf(&self, _wo: BsdfVec<Self>, _wi: BsdfVec<Self>) -> BsdfReal<Self> {
-        C::Real::ZERO
+        Lobes::DELTA
     }
 
     #[inline]
@@ -87,6 +78,19 @@ impl<C: Spectrum> Bsdf for SmoothConductor<C> {
         Some(if above(wo) { self.reflectance(wo.z()) } else { C::black() })
     }
 }
+
+/// The entry of the model in the [registry](crate::registry).
+pub(crate) const INFO: ModelInfo = ModelInfo {
+    name: "smooth-conductor",
+    type_name: "SmoothConductor",
+    parameters: &[parameter::COMPLEX_ETA, parameter::K, parameter::KS],
+    reciprocity: Reciprocity::Reciprocal,
+    energy: Energy::Conserves,
+    lobes: Lobes::DELTA,
+    albedo: Albedo::ClosedForm,
+    density: "delta",
+    source: "Born and Wolf, section 14.2",
+};
 
 #[cfg(test)]
 mod tests {

@@ -1,0 +1,57 @@
+//! Which parameters of which model are audited.
+//!
+//! Adding a model: a function that lists its cases in the file of its family, and a line in [`models`].
+
+mod adapter;
+mod diffuse;
+mod layered;
+mod parameters;
+mod rough;
+mod smooth;
+
+use etendue_brdf::registry::{MODELS, ModelInfo};
+
+use crate::subject::Case;
+
+/// A model's name in the registry and its cases.
+pub struct ModelCases {
+    /// Name in `etendue_brdf::registry::MODELS`.
+    pub name: &'static str,
+    /// Its cases in `f32`.
+    pub single: fn() -> Vec<Case<f32>>,
+    /// The same cases in `f64`.
+    pub double: fn() -> Vec<Case<f64>>,
+}
+
+/// Every model. The order is that of the report.
+pub fn models() -> Vec<ModelCases> {
+    let of = |name, single, double| ModelCases { name, single, double };
+    vec![
+        of("lambert", diffuse::lambert, diffuse::lambert),
+        of("oren-nayar", diffuse::oren_nayar, diffuse::oren_nayar),
+        of(
+            "oren-nayar-qualitative",
+            diffuse::oren_nayar_qualitative,
+            diffuse::oren_nayar_qualitative,
+        ),
+        of("smooth-conductor", smooth::smooth_conductor, smooth::smooth_conductor),
+        of("rough-conductor", rough::rough_conductor, rough::rough_conductor),
+        of("conductor", rough::conductor, rough::conductor),
+        of("smooth-dielectric", smooth::smooth_dielectric, smooth::smooth_dielectric),
+        of("thin-dielectric", smooth::thin_dielectric, smooth::thin_dielectric),
+        of("rough-dielectric", rough::rough_dielectric, rough::rough_dielectric),
+        of("dielectric", rough::dielectric, rough::dielectric),
+        of("null", smooth::null, smooth::null),
+        of("plastic", layered::plastic, layered::plastic),
+        of("rough-plastic", layered::rough_plastic, layered::rough_plastic),
+        of("mask", adapter::mask, adapter::mask),
+        of("two-sided", adapter::two_sided, adapter::two_sided),
+    ]
+}
+
+impl ModelCases {
+    /// The model's entry in the registry, if it has one.
+    pub fn info(&self) -> Option<&'static ModelInfo> {
+        MODELS.iter().find(|info| info.name == self.name)
+    }
+}

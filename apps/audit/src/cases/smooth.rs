@@ -1,0 +1,35 @@
+//! Surfaces without roughness.
+
+use etendue_brdf::{Null, SmoothConductor, SmoothDielectric, ThinDielectric};
+
+use super::parameters::{METALS, complex, ior};
+use crate::scalar::Scalar;
+use crate::subject::Case;
+
+/// Relative indices: next to 1 on either side, common glass from both sides, and the extremes.
+const INDICES: [f64; 7] = [0.4, 0.666_666_7, 0.999_999, 1.000_001, 1.5, 2.4, 4.0];
+
+pub(super) fn smooth_conductor<T: Scalar>() -> Vec<Case<T>> {
+    METALS
+        .iter()
+        .map(|&(name, index)| Case::new(name, SmoothConductor::new(complex::<T>(index))))
+        .collect()
+}
+
+pub(super) fn smooth_dielectric<T: Scalar>() -> Vec<Case<T>> {
+    INDICES
+        .iter()
+        .map(|&eta| Case::new(format!("η {eta}"), SmoothDielectric::<T>::new(ior::<T>(eta))))
+        .collect()
+}
+
+pub(super) fn thin_dielectric<T: Scalar>() -> Vec<Case<T>> {
+    INDICES
+        .iter()
+        .map(|&eta| Case::new(format!("η {eta}"), ThinDielectric::<T>::new(ior::<T>(eta))))
+        .collect()
+}
+
+pub(super) fn null<T: Scalar>() -> Vec<Case<T>> {
+    vec![Case::new("", Null::<T>::new())]
+}

@@ -1,0 +1,7 @@
+//! Models made of other models.
+
+pub(crate) mod mask;
+pub(crate) mod two_sided;
+
+pub use mask::Mask;
+pub use two_sided::TwoSided;

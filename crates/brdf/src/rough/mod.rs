@@ -1,0 +1,11 @@
+//! Surfaces of microfacets, and the types that choose between smooth and rough.
+
+pub(crate) mod conductor;
+pub(crate) mod dielectric;
+pub(crate) mod rough_conductor;
+pub(crate) mod rough_dielectric;
+
+pub use conductor::Conductor;
+pub use dielectric::Dielectric;
+pub use rough_conductor::RoughConductor;
+pub use rough_dielectric::RoughDielectric;
