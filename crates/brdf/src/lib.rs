@@ -66,7 +66,7 @@
 #[cfg(any(feature = "std", test))]
 extern crate std;
 
-#[cfg(test)]
+#[cfg(any(feature = "alloc", test))]
 extern crate alloc;
 
 mod adapter;
@@ -78,6 +78,8 @@ pub mod fresnel;
 mod laws;
 mod layered;
 pub mod microfacet;
+#[cfg(feature = "alloc")]
+pub mod named;
 mod param;
 pub mod quadrature;
 pub mod registry;

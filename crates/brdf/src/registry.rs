@@ -93,7 +93,7 @@ pub(crate) mod parameter {
         named("distribution", "GGX, Beckmann (exact or Walter's fit)");
     pub(crate) const MASKING: ParameterInfo = named("masking", "height-correlated, separable");
     pub(crate) const SCATTERING: ParameterInfo = named("scattering", "linear, non-linear");
-    pub(crate) const INTERNAL: ParameterInfo = named("internal reflectance", "exact, Mitsuba");
+    pub(crate) const INTERNAL: ParameterInfo = named("internal_reflectance", "exact, Mitsuba");
 }
 
 /// Every type that implements [`Bsdf`](crate::Bsdf), in alphabetical order of the names; each
