@@ -27,6 +27,8 @@
 //! | [`Null`] | nothing: straight on | – |
 //! | [`Mask`], [`TwoSided`] | adapters | that of the inner model |
 //!
+//! [`StochasticLayers`] is no model but a reference: any interface over any base, followed bounce by bounce.
+//!
 //! [`registry::MODELS`] is the same table with domains, laws and sources, as data. Below the models lie
 //! [`fresnel`] and [`microfacet`], usable alone.
 //!
@@ -89,10 +91,12 @@ pub use bsdf::{Bsdf, BsdfReal, BsdfVec, Density, Lobes, Sample};
 pub use diffuse::{Lambert, OrenNayar, OrenNayarQualitative};
 pub use layered::{
     InternalReflectance, InternalScattering, Plastic, PlasticInterface, RoughPlastic,
-    TransmittanceTable,
+    StochasticLayers, TransmittanceTable,
 };
 pub use microfacet::{BeckmannLambda, Distribution, Masking, Microfacets};
-pub use param::{Alpha, ComplexIor, Ior, Opacity, ParameterError, Reflectance, Sigma};
+pub use param::{
+    Alpha, ComplexIor, Ior, Opacity, OpticalDepth, ParameterError, Reflectance, Sigma,
+};
 pub use rough::{Conductor, Dielectric, RoughConductor, RoughDielectric};
 pub use smooth::{Null, SmoothConductor, SmoothDielectric, ThinDielectric};
 

@@ -248,6 +248,38 @@ impl<T: Real> Opacity<T> {
     }
 }
 
+/// Optical depth τ = σa d of a layer crossed perpendicularly, per channel. Domain: finite, not
+/// negative.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OpticalDepth<C>(C);
+
+impl<C: Spectrum> OpticalDepth<C> {
+    /// Checks every channel.
+    ///
+    /// # Errors
+    /// [`ParameterError`] where a channel is negative, infinite or NaN.
+    pub fn new(depth: C) -> Result<Self, ParameterError> {
+        for i in 0..C::CHANNELS {
+            let domain = "finite and not negative";
+            within("optical depth", depth.channel(i), [0.0, C::Real::MAX.to_f64()], domain)?;
+        }
+        Ok(Self(depth))
+    }
+
+    /// A layer that absorbs nothing.
+    #[inline]
+    pub fn clear() -> Self {
+        Self(C::black())
+    }
+
+    /// Transmittance `exp(−τ / |cos θ|)` of a slanted crossing, in `[0, 1]`; 0 where an absorbing layer
+    /// is crossed along itself (`cos θ = 0`).
+    #[inline]
+    pub fn transmittance(self, cos: C::Real) -> C {
+        self.0.map(|tau| if tau > C::Real::ZERO { (-tau / cos.abs()).exp() } else { C::Real::ONE })
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
