@@ -56,8 +56,15 @@ impl Row<'_> {
     }
 
     /// The unit vector along the given coordinates, whatever their scale; `None` if there is none.
+    ///
+    /// Coordinates that are those of a unit vector but for their rounding stay as they are: rounding them
+    /// once more would move the half vector of nearly opposite directions.
     fn direction<T: Real>(&self, name: &str) -> Option<Vec3<T>> {
         let w = self.coordinates::<T>(name)?;
+        // A rounding of each coordinate moves the squared length by up to √3 ε.
+        if T::excess_of_squares(w.x(), w.y(), w.z()).abs() < T::TWO * T::EPSILON {
+            return Some(w);
+        }
         (w / w.x().abs().max(w.y().abs()).max(w.z().abs())).try_normalize()
     }
 
