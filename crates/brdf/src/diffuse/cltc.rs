@@ -53,7 +53,7 @@ impl<T: Real> ClippedCosine<T> {
     /// The lobe for the viewer `wo`, a unit vector above the surface.
     #[inline]
     pub fn new(wo: Vec3<T>, roughness: Roughness<T>) -> Self {
-        let (mu, r) = (wo.z(), roughness.value());
+        let (mu, r) = (wo.z().clamp_to(T::ZERO, T::ONE), roughness.value());
         let lit = T::lit;
         let a_mu = lit(0.303_392) + (lit(-0.518_982) + lit(0.111_709) * mu) * mu;
         let a = T::ONE + r * (a_mu + (lit(-0.276_266) + lit(0.335_918) * mu) * r);
@@ -92,7 +92,8 @@ impl<T: Real> ClippedCosine<T> {
         turned.try_normalize()
     }
 
-    /// Density per steradian of [`sample`](Self::sample) at `wi` on the upper hemisphere.
+    /// Density per steradian of [`sample`](Self::sample) at the unit vector `wi` on the upper hemisphere, a finite number
+    /// for every vector.
     #[inline]
     pub fn pdf(&self, wi: Vec3<T>) -> T {
         let [cos, sin] = self.azimuth;
@@ -104,8 +105,11 @@ impl<T: Real> ClippedCosine<T> {
             minor * y,
             self.c * (self.a * wi.z() - self.d * x),
         );
+        if !(w.z() > T::ZERO) {
+            return T::ZERO;
+        }
         let ratio = self.c * minor / w.length_squared();
-        ratio * ratio * w.z().max(T::ZERO) * T::FRAC_1_PI / self.share[0]
+        (ratio * ratio * w.z() * T::FRAC_1_PI / self.share[0]).min(T::MAX)
     }
 }
 

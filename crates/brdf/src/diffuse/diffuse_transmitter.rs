@@ -37,10 +37,10 @@ use crate::{Bsdf, BsdfReal, BsdfVec, Density, Lobes, ParameterError, Reflectance
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DiffuseTransmitter<C: Spectrum> {
-    reflectance: C,
-    transmittance: C,
-    /// Probability of choosing transmission.
-    through: C::Real,
+    /// ρr and ρt
+    colour: [C; 2],
+    /// Probabilities of choosing reflection and transmission: both, since one from the other would cancel.
+    probability: [C::Real; 2],
 }
 
 impl<C: Spectrum> DiffuseTransmitter<C> {
@@ -55,8 +55,8 @@ impl<C: Spectrum> DiffuseTransmitter<C> {
         at_most_all_together("reflectance + transmittance", reflectance, transmittance)?;
         let (reflectance, transmittance) = (reflectance.value(), transmittance.value());
         let (r, t) = (reflectance.mean(), transmittance.mean());
-        let through = if r + t > C::Real::ZERO { t / (r + t) } else { C::Real::ZERO };
-        Ok(Self { reflectance, transmittance, through })
+        let share = |x| if r + t > C::Real::ZERO { x / (r + t) } else { C::Real::ZERO };
+        Ok(Self { colour: [reflectance, transmittance], probability: [share(r), share(t)] })
     }
 }
 
@@ -79,13 +79,9 @@ impl<C: Spectrum> Bsdf for DiffuseTransmitter<C> {
         if !above(upright(wo)) || !above(upright(wi)) {
             return (C::black(), C::Real::ZERO);
         }
-        let one = <C::Real as Real>::ONE;
         let across = (wo.z() < C::Real::ZERO) != (wi.z() < C::Real::ZERO);
-        let (colour, probability) = if across {
-            (self.transmittance, self.through)
-        } else {
-            (self.reflectance, one - self.through)
-        };
+        let side = usize::from(across);
+        let (colour, probability) = (self.colour[side], self.probability[side]);
         let pdf = probability * cosine_hemisphere::pdf::<C::Real>(upright(wi));
         (colour.scale(C::Real::FRAC_1_PI), pdf)
     }
@@ -102,12 +98,9 @@ impl<C: Spectrum> Bsdf for DiffuseTransmitter<C> {
             return None;
         }
         let one = <C::Real as Real>::ONE;
-        let across = u_lobe < self.through;
-        let (colour, probability) = if across {
-            (self.transmittance, self.through)
-        } else {
-            (self.reflectance, one - self.through)
-        };
+        let across = u_lobe < self.probability[1];
+        let side = usize::from(across);
+        let (colour, probability) = (self.colour[side], self.probability[side]);
         if colour.is_black() {
             return None;
         }
@@ -124,7 +117,7 @@ impl<C: Spectrum> Bsdf for DiffuseTransmitter<C> {
     #[inline]
     fn albedo(&self, wo: BsdfVec<Self>) -> Option<C> {
         let seen = above(upright(wo));
-        Some(if seen { self.reflectance + self.transmittance } else { C::black() })
+        Some(if seen { self.colour[0] + self.colour[1] } else { C::black() })
     }
 }
 

@@ -177,6 +177,7 @@ impl<C: Spectrum> Eon<C> {
     /// Probability of a sample from the uniform hemisphere.
     #[inline(always)]
     fn uniform_probability(&self, mu: C::Real) -> C::Real {
+        let mu = mu.clamp_to(C::Real::ZERO, C::Real::ONE);
         let [c0, c1, c2, c3] = [0.162_925, -0.372_058, 0.538_233, -0.290_822].map(C::Real::lit);
         self.uniform_scale * (c0 + mu * (c1 + mu * (c2 + mu * c3)))
     }

@@ -90,19 +90,16 @@ impl<C: Spectrum> AshikhminShirley<C> {
         self.diffuse
     }
 
-    /// Probability of choosing the specular lobe for a viewer above the surface.
+    /// Probabilities of choosing the specular lobe and the cosine for a viewer above the surface.
     #[inline(always)]
-    fn specular_probability(&self, wo: BsdfVec<Self>) -> C::Real {
-        let one = <C::Real as Real>::ONE;
-        if self.sampling == AshikhminShirleySampling::Specular {
-            return one;
-        }
-        let diffuse = self.diffuse.albedo(wo).map_or(C::Real::ZERO, Spectrum::mean);
-        if !(diffuse > C::Real::ZERO) {
-            return one;
+    fn probabilities(&self, wo: BsdfVec<Self>) -> [C::Real; 2] {
+        let (zero, one) = (C::Real::ZERO, <C::Real as Real>::ONE);
+        let diffuse = self.diffuse.albedo(wo).map_or(zero, Spectrum::mean);
+        if self.sampling == AshikhminShirleySampling::Specular || !(diffuse > zero) {
+            return [one, zero];
         }
         let specular = self.specular.fresnel(one - wo.z().min(one)).mean();
-        specular / (specular + diffuse)
+        [specular / (specular + diffuse), diffuse / (specular + diffuse)]
     }
 }
 
@@ -119,8 +116,8 @@ impl<C: Spectrum> Bsdf for AshikhminShirley<C> {
         let (specular, half_vectors) = self.specular.eval_pdf(wo, wi);
         let (diffuse, cosine) = self.diffuse.eval_pdf(wo, wi);
         let value = (specular + diffuse).map(|f| f.min(C::Real::MAX));
-        let p = self.specular_probability(wo);
-        (value, p * half_vectors + (C::Real::ONE - p) * cosine)
+        let [s, d] = self.probabilities(wo);
+        (value, s * half_vectors + d * cosine)
     }
 
     #[inline]
@@ -133,13 +130,13 @@ impl<C: Spectrum> Bsdf for AshikhminShirley<C> {
         if !above(wo) {
             return None;
         }
-        let p = self.specular_probability(wo);
-        let (wi, weight, pdf) = if p == C::Real::ONE {
+        let [s, d] = self.probabilities(wo);
+        let (wi, weight, pdf) = if d == C::Real::ZERO {
             // Nothing else could have drawn it: the lobe cancels out of its own part of the weight.
             let (wi, weight, pdf) = self.specular.reflect(wo, u)?;
             (wi, weight + self.diffuse.eval(wo, wi).scale(wi.z() / pdf), pdf)
         } else {
-            let wi = if u_lobe < p {
+            let wi = if u_lobe < s {
                 self.specular.reflect(wo, u)?.0
             } else {
                 cosine_hemisphere::from_square(u)

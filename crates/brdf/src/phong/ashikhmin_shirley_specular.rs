@@ -4,7 +4,7 @@ use etendue_math::{Real, Spectrum, Vec3, Vector3};
 
 use super::PhongHalfVectors;
 use crate::bsdf::{above, both_above};
-use crate::direction::{half_vector, reflect_about};
+use crate::direction::{reflect_about, sum_of_units};
 use crate::registry::{Albedo, Energy, ModelInfo, Reciprocity, parameter};
 use crate::{Bsdf, BsdfReal, BsdfVec, Density, Exponent, Lobes, Reflectance, Sample};
 
@@ -66,10 +66,10 @@ impl<C: Spectrum> AshikhminShirleySpecular<C> {
     }
 }
 
-/// The unit vector along `w`, in double precision.
+/// A vector in double precision, exact.
 #[inline(always)]
-fn wide_unit<T: Real>(w: Vec3<T>) -> Option<Vec3<f64>> {
-    Vec3::<f64>::new(w.x().to_f64(), w.y().to_f64(), w.z().to_f64()).try_normalize()
+fn wide<T: Real>(w: Vec3<T>) -> Vec3<f64> {
+    Vec3::<f64>::new(w.x().to_f64(), w.y().to_f64(), w.z().to_f64())
 }
 
 impl<C: Spectrum> Bsdf for AshikhminShirleySpecular<C> {
@@ -86,16 +86,17 @@ impl<C: Spectrum> Bsdf for AshikhminShirleySpecular<C> {
         if !both_above(wo, wi) {
             return nothing;
         }
-        let Some([o, i]) =
-            wide_unit::<C::Real>(wo).zip(wide_unit::<C::Real>(wi)).map(<[_; 2]>::from)
-        else {
+        let (o, i) = (wide::<C::Real>(wo), wide::<C::Real>(wi));
+        let sum = sum_of_units(o, i);
+        let cos = (0.5 * sum.length()).min(1.0);
+        if !(cos > 0.0) {
             return nothing;
-        };
-        let Some((h, cos)) = half_vector(o, i) else { return nothing };
-        let pdf = self.half_vectors.pdf_wide(h) / (4.0 * cos);
+        }
+        let pdf = self.half_vectors.pdf_wide(sum) / (4.0 * cos);
         let narrow = |x: f64| C::Real::lit(x).min(C::Real::MAX);
         let complement = narrow((o - i).length_squared() / (4.0 * (1.0 + cos)));
-        (self.fresnel(complement).scale(narrow(pdf / o.z.max(i.z))), narrow(pdf))
+        let reflectance = self.fresnel(complement.min(C::Real::ONE));
+        (reflectance.scale(narrow(pdf / o.z.max(i.z))), narrow(pdf))
     }
 
     #[inline]

@@ -53,8 +53,8 @@ pub struct Phong<C: Spectrum> {
     diffuse: C,
     specular: C,
     exponent: C::Real,
-    /// Probability of choosing the lobe.
-    lobe: C::Real,
+    /// Probabilities of choosing the cosine and the lobe: both, since one from the other would cancel.
+    probability: [C::Real; 2],
 }
 
 impl<C: Spectrum> Phong<C> {
@@ -70,8 +70,8 @@ impl<C: Spectrum> Phong<C> {
         at_most_all_together("kd + ks", diffuse, specular)?;
         let (diffuse, specular, exponent) = (diffuse.value(), specular.value(), exponent.value());
         let (d, s) = (diffuse.mean(), specular.mean());
-        let lobe = if s > C::Real::ZERO { s / (d + s) } else { C::Real::ZERO };
-        Ok(Self { diffuse, specular, exponent, lobe })
+        let share = |x| if d + s > C::Real::ZERO { x / (d + s) } else { C::Real::ZERO };
+        Ok(Self { diffuse, specular, exponent, probability: [share(d), share(s)] })
     }
 
     /// `cos^(n/2) α`: half the power, because the whole may underflow where the product with n does not.
@@ -117,8 +117,8 @@ impl<C: Spectrum> Bsdf for Phong<C> {
         let lobe = |factor| factor * (C::Real::HALF * C::Real::FRAC_1_PI) * root * root;
         let value = self.diffuse.scale(C::Real::FRAC_1_PI)
             + self.specular.scale(lobe(self.exponent + C::Real::TWO));
-        let pdf = (one - self.lobe) * cosine_hemisphere::pdf::<C::Real>(wi)
-            + self.lobe * lobe(self.exponent + one);
+        let pdf = self.probability[0] * cosine_hemisphere::pdf::<C::Real>(wi)
+            + self.probability[1] * lobe(self.exponent + one);
         (value, pdf)
     }
 
@@ -133,7 +133,7 @@ impl<C: Spectrum> Bsdf for Phong<C> {
             return None;
         }
         let one = <C::Real as Real>::ONE;
-        let wi = if u_lobe < self.lobe {
+        let wi = if u_lobe < self.probability[1] {
             let log_cos = (-u[0]).ln_1p() / (self.exponent + one);
             let sin_alpha = (-(C::Real::TWO * log_cos).exp_m1()).safe_sqrt();
             let (sin, cos) = turn::sin_cos(u[1]);
@@ -224,6 +224,26 @@ mod tests {
         assert!((needle - 0.3).abs() < 1e-9, "{needle}");
         let flat = model::<f64>(0.0, 1.0, 0.0).albedo(viewer(1e-9)).unwrap();
         assert!((flat - 0.5).abs() < 1e-8, "{flat}");
+    }
+
+    #[test]
+    fn weights_of_samples_add_up_to_the_albedo_however_narrow_the_lobe() {
+        for n in [5.0, 300.0, 1e4, 1e7] {
+            let model = model::<f64>(0.2, 0.6, n);
+            for z in [0.05, 0.4, 1.0] {
+                let unit = |i: i32| (f64::from(i) + 0.5) / 32.0;
+                let sum: f64 = (0..32 * 32 * 32)
+                    .filter_map(|i| {
+                        let u = [unit(i % 32), unit(i / 32 % 32)];
+                        model.sample(viewer(z), unit(i / 1024), u)
+                    })
+                    .map(|s| s.weight)
+                    .sum();
+                // The midpoint rule in three dimensions, with jumps at the horizon and where the lobe is chosen.
+                let (mean, want) = (sum / 32.0 / 1024.0, model.albedo(viewer(z)).unwrap());
+                assert!((mean - want).abs() < 5e-3, "{n} {z}: {mean} {want}");
+            }
+        }
     }
 
     #[test]
