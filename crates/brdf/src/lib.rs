@@ -24,13 +24,17 @@
 //! | [`SmoothDielectric`], [`RoughDielectric`], [`Dielectric`] | glass; the last chooses by roughness and index | Fresnel; visible normals |
 //! | [`ThinDielectric`] | pane | Fresnel of the slab |
 //! | [`Plastic`], [`RoughPlastic`] | diffuse base under a dielectric | mirror or visible normals, and cosine |
+//! | [`AbsorbingSlab`] | pane of tinted glass | reflected and transmitted shares |
+//! | [`LayeredLinear`], [`LayeredFresnel`] | mirror and matte term, uncoupled (the latter not reciprocal) | mirror and cosine |
+//! | [`Coupled`], [`RoughCoupled`] | matte term coupled to a mirror or a rough lobe | mirror or visible normals, and cosine |
 //! | [`Null`] | nothing: straight on | – |
-//! | [`Mask`], [`TwoSided`] | adapters | that of the inner model |
+//! | [`Blend`], [`Mask`], [`TwoSided`] | adapters | that of the inner models |
 //!
 //! [`StochasticLayers`] is no model but a reference: any interface over any base, followed bounce by bounce.
 //!
 //! [`registry::MODELS`] is the same table with domains, laws and sources, as data. Below the models lie
-//! [`fresnel`] and [`microfacet`], usable alone.
+//! [`fresnel`] and [`microfacet`], usable alone. Beside them, [`Absorption`] is what happens inside a medium and
+//! [`radiometry`] what lights do to a surface.
 //!
 //! # Examples
 //! ```
@@ -71,6 +75,7 @@ extern crate std;
 #[cfg(test)]
 extern crate alloc;
 
+mod absorption;
 mod adapter;
 mod bsdf;
 mod diffuse;
@@ -82,23 +87,31 @@ mod layered;
 pub mod microfacet;
 mod param;
 pub mod quadrature;
+pub mod radiometry;
 pub mod registry;
 mod rough;
 mod smooth;
 
-pub use adapter::{Mask, TwoSided};
+pub use absorption::Absorption;
+pub use adapter::{Blend, Mask, TwoSided};
 pub use bsdf::{Bsdf, BsdfReal, BsdfVec, Density, Lobes, Sample};
 pub use diffuse::{Lambert, OrenNayar, OrenNayarQualitative};
 pub use layered::{
+<<<<<<< HEAD
     InternalReflectance, InternalScattering, Plastic, PlasticInterface, RoughPlastic,
     StochasticLayers, TransmittanceTable,
+=======
+    Coupled, CoupledInterface, InternalReflectance, InternalScattering, LayeredFresnel,
+    LayeredLinear, MirrorOverMatte, Plastic, PlasticInterface, RoughCoupled, RoughPlastic,
+    TransmittanceTable,
+>>>>>>> 8016ffa (Layered and coupled models, blend, absorbing pane; Beer–Lambert, radiometry, Fresnel of metals by colours; hard cases of limits and tiny solid angles)
 };
 pub use microfacet::{BeckmannLambda, Distribution, Masking, Microfacets};
 pub use param::{
     Alpha, ComplexIor, Ior, Opacity, OpticalDepth, ParameterError, Reflectance, Sigma,
 };
 pub use rough::{Conductor, Dielectric, RoughConductor, RoughDielectric};
-pub use smooth::{Null, SmoothConductor, SmoothDielectric, ThinDielectric};
+pub use smooth::{AbsorbingSlab, Null, SmoothConductor, SmoothDielectric, ThinDielectric};
 
 /// Runs the README's example.
 #[cfg(doctest)]

@@ -5,8 +5,9 @@ use std::path::Path;
 
 use etendue_brdf::fresnel;
 use etendue_brdf::{
-    Alpha, BeckmannLambda, Bsdf, ComplexIor, Distribution, Ior, Lambert, Masking, Microfacets,
-    OrenNayar, OrenNayarQualitative, Reflectance, RoughConductor, RoughDielectric, Sigma,
+    Absorption, Alpha, BeckmannLambda, Bsdf, ComplexIor, Coupled, CoupledInterface, Distribution,
+    Ior, Lambert, LayeredFresnel, LayeredLinear, Masking, Microfacets, MirrorOverMatte, OrenNayar,
+    OrenNayarQualitative, Reflectance, RoughConductor, RoughDielectric, Sigma,
 };
 use etendue_math::{Real, Spectrum, Vec3, Vector3};
 use serde_json::Value;
@@ -20,7 +21,11 @@ const F64_SHARE: f64 = 1e-6;
 
 enum Answer {
     Value(f64),
-    Bsdf { f: f64, pdf: f64 },
+    /// The density where the row's one is comparable.
+    Bsdf {
+        f: f64,
+        pdf: Option<f64>,
+    },
     Direction([f64; 3]),
     TotalReflection,
 }
@@ -82,7 +87,22 @@ impl Row<'_> {
         let wi = self.direction::<<B::Color as Spectrum>::Real>("wi")?;
         let wo = self.direction::<<B::Color as Spectrum>::Real>("wo")?;
         let (f, pdf) = model.eval_pdf(wo, wi);
-        Some(Answer::Bsdf { f: f.channel(0).to_f64(), pdf: pdf.to_f64() })
+        Some(Answer::Bsdf { f: f.channel(0).to_f64(), pdf: Some(pdf.to_f64()) })
+    }
+
+    /// A model with a mirror: the rows give the density within the matte term. Where the sampler never chooses
+    /// that, because it is black, there is none to compare.
+    fn matte<M: MirrorOverMatte>(&self, model: &M) -> Option<Answer> {
+        let answer = self.bsdf(model)?;
+        let wo = self.direction::<<M::Color as Spectrum>::Real>("wo")?;
+        let probability = model.matte_probability(wo.z()).to_f64();
+        Some(match answer {
+            Answer::Bsdf { f, pdf } => {
+                let within = pdf.filter(|_| probability > 0.0).map(|pdf| pdf / probability);
+                Answer::Bsdf { f, pdf: within }
+            }
+            other => other,
+        })
     }
 
     /// What the crate says to this row, or `None` where it refuses the input.
@@ -91,6 +111,7 @@ impl Row<'_> {
         let albedo = || Reflectance::new(self.parameter::<T>("albedo")?).ok();
         let sigma = || Sigma::new(self.parameter::<T>("sigma")?).ok();
         let eta = || Ior::new(self.parameter::<T>("eta")?).ok();
+        let share = |name: &str| Reflectance::new(self.parameter::<T>(name)?).ok();
         if let Some((function, distribution)) = file
             .rsplit_once('-')
             .filter(|(name, _)| name.starts_with("ndf") || name.starts_with("smith"))
@@ -137,6 +158,16 @@ impl Row<'_> {
                 let facets = self.facets::<T>(self.distribution(), Masking::Separable)?;
                 self.bsdf(&RoughDielectric::<T>::new(eta, facets).ok()?)
             }
+            "beer-lambert" => {
+                let medium = Absorption::new(self.parameter::<T>("sigma_a")?).ok()?;
+                value(medium.transmittance(self.parameter("distance")?))
+            }
+            "layered-linear" => self.matte(&LayeredLinear::new(share("rd")?, share("rs")?).ok()?),
+            "layered-fresnel" => self.matte(&LayeredFresnel::new(share("r0")?, share("rd")?)),
+            "coupled" => {
+                let interface = CoupledInterface::schlick(share("r0")?);
+                self.matte(&Coupled::new(interface, share("rm")?))
+            }
             _ => panic!("no model for {file}"),
         }
     }
@@ -179,7 +210,8 @@ fn row_error(row: &Value, answer: Option<&Answer>) -> f64 {
         Some(&Answer::Value(x)) => scaled_error(x, row["value"].as_f64().unwrap(), &row["cond"]),
         Some(&Answer::Bsdf { f, pdf }) => {
             let f = scaled_error(f, row["f"].as_f64().unwrap(), &row["cond"]);
-            row["pdf"].as_f64().map_or(f, |exact| f.max(scaled_error(pdf, exact, &row["cond"])))
+            let density = pdf.zip(row["pdf"].as_f64());
+            density.map_or(f, |(pdf, exact)| f.max(scaled_error(pdf, exact, &row["cond"])))
         }
         Some(Answer::TotalReflection) if row["tir"].as_bool() == Some(true) => 0.0,
         None | Some(Answer::TotalReflection) => f64::INFINITY,
@@ -199,7 +231,7 @@ fn is_acceptable(row: &Value, answer: Option<&Answer>) -> bool {
         // Directions and total reflection of invalid input are vectors or nothing: never wrong here.
         None | Some(Answer::Direction(_) | Answer::TotalReflection) => return true,
         Some(&Answer::Value(x)) => (x, 0.0),
-        Some(&Answer::Bsdf { f, pdf }) => (f, pdf),
+        Some(&Answer::Bsdf { f, pdf }) => (f, pdf.unwrap_or(0.0)),
     };
     let valid = |x: f64| x.is_finite() && x >= 0.0;
     let near =
@@ -244,7 +276,7 @@ fn check<T: Real + Spectrum<Real = T>>(share: f64) {
             }
         }
     }
-    assert!(rows > 4000, "only {rows} rows were found");
+    assert!(rows > 5000, "only {rows} rows were found");
     assert!(misses.is_empty(), "of {rows} rows these miss their bound:\n{}", misses.join("\n"));
 }
 
