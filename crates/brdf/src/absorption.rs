@@ -2,7 +2,7 @@
 
 use etendue_math::{Real, Spectrum};
 
-use crate::{ParameterError, Reflectance};
+use crate::{OpticalDepth, ParameterError, Reflectance};
 
 /// Absorption coefficient σa of a medium per channel, in the inverse of the unit of length.
 /// Domain: finite, not negative.
@@ -77,6 +77,17 @@ impl<C: Spectrum> Absorption<C> {
         self.0
     }
 
+    /// Optical depth `τ = σa d` of a layer of thickness `distance`.
+    ///
+    /// # Errors
+    /// [`ParameterError`] where the thickness is negative, infinite or NaN, or τ is not finite.
+    pub fn depth(self, distance: C::Real) -> Result<OpticalDepth<C>, ParameterError> {
+        if !(distance >= C::Real::ZERO && distance < C::Real::INFINITY) {
+            return Err(error("distance", distance, "finite and not negative"));
+        }
+        OpticalDepth::new(self.0.scale(distance))
+    }
+
     /// The share of light left after `distance`, per channel in `[0, 1]`.
     ///
     /// ```text
@@ -93,21 +104,6 @@ impl<C: Spectrum> Absorption<C> {
             return C::black();
         }
         self.0.map(|sigma| (-(sigma * distance)).exp())
-    }
-
-    /// The share of light lost over `distance`, per channel in `[0, 1]`: `1 − T` without cancellation.
-    ///
-    /// ```text
-    /// 1 − T = −expm1(−σa d)
-    /// ```
-    ///
-    /// * `distance`: as for [`transmittance`](Self::transmittance); 1 is returned outside.
-    #[inline]
-    pub fn absorptance(self, distance: C::Real) -> C {
-        if !(distance >= C::Real::ZERO && distance < C::Real::INFINITY) {
-            return C::white();
-        }
-        self.0.map(|sigma| -(-(sigma * distance)).exp_m1())
     }
 }
 
@@ -144,10 +140,14 @@ mod tests {
     }
 
     #[test]
-    fn thin_media_lose_little_and_keep_its_digits() {
-        let medium = Absorption::new(1e-6_f32).unwrap();
-        assert!((medium.absorptance(1e-6) / 1e-12 - 1.0).abs() < 1e-6);
-        assert_eq!(medium.transmittance(1e-6), 1.0);
+    fn a_layer_passes_what_the_path_through_it_does() {
+        let medium = Absorption::new(0.7_f64).unwrap();
+        let layer = medium.depth(2.0).unwrap();
+        // One rounding of the exponent more.
+        assert!((layer.transmittance(0.5) / medium.transmittance(4.0) - 1.0).abs() < 1e-15);
+        assert!((layer.absorptance(0.5) + layer.transmittance(0.5) - 1.0).abs() < 1e-15);
+        let thin = Absorption::new(1e-6_f32).unwrap().depth(1e-6).unwrap();
+        assert!((thin.absorptance(1.0) / 1e-12 - 1.0).abs() < 1e-6);
     }
 
     #[test]
@@ -155,11 +155,12 @@ mod tests {
         for bad in [f64::NAN, f64::INFINITY, -1.0] {
             assert!(Absorption::new(bad).is_err());
             assert_eq!(Absorption::new(1.0).unwrap().transmittance(bad), 0.0);
-            assert_eq!(Absorption::new(1.0).unwrap().absorptance(bad), 1.0);
+            assert!(Absorption::new(1.0).unwrap().depth(bad).is_err());
             assert!(Absorption::from_transmittance(Reflectance::clamped(0.5), bad).is_err());
         }
         assert!(Absorption::from_transmittance(Reflectance::clamped(0.0), 1.0).is_err());
         assert!(Absorption::from_transmittance(Reflectance::clamped(0.5_f32), 1e-40).is_err());
+        assert!(Absorption::new(f32::MAX).unwrap().depth(2.0).is_err());
         assert_eq!(Absorption::<f32>::none().transmittance(f32::MAX), 1.0);
         assert_eq!(Absorption::new(f32::MAX).unwrap().transmittance(f32::MAX), 0.0);
     }

@@ -97,14 +97,9 @@ pub use adapter::{Blend, Mask, TwoSided};
 pub use bsdf::{Bsdf, BsdfReal, BsdfVec, Density, Lobes, Sample};
 pub use diffuse::{Lambert, OrenNayar, OrenNayarQualitative};
 pub use layered::{
-<<<<<<< HEAD
-    InternalReflectance, InternalScattering, Plastic, PlasticInterface, RoughPlastic,
-    StochasticLayers, TransmittanceTable,
-=======
     Coupled, CoupledInterface, InternalReflectance, InternalScattering, LayeredFresnel,
     LayeredLinear, MirrorOverMatte, Plastic, PlasticInterface, RoughCoupled, RoughPlastic,
-    TransmittanceTable,
->>>>>>> 8016ffa (Layered and coupled models, blend, absorbing pane; Beer–Lambert, radiometry, Fresnel of metals by colours; hard cases of limits and tiny solid angles)
+    StochasticLayers, TransmittanceTable,
 };
 pub use microfacet::{BeckmannLambda, Distribution, Masking, Microfacets};
 pub use param::{

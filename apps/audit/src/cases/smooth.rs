@@ -1,7 +1,7 @@
 //! Surfaces without roughness.
 
 use etendue_brdf::{
-    AbsorbingSlab, Absorption, Null, SmoothConductor, SmoothDielectric, ThinDielectric,
+    AbsorbingSlab, Null, OpticalDepth, SmoothConductor, SmoothDielectric, ThinDielectric,
 };
 
 use super::parameters::{METALS, complex, ior, valid};
@@ -34,8 +34,8 @@ pub(super) fn thin_dielectric<T: Scalar>() -> Vec<Case<T>> {
 
 pub(super) fn absorbing_slab<T: Scalar>() -> Vec<Case<T>> {
     let case = |eta: f64, depth: f64| {
-        let absorption = valid(Absorption::new(shared::<T>(depth)));
-        let model = valid(AbsorbingSlab::<T>::new(ior::<T>(eta), absorption, T::ONE));
+        let tau = valid(OpticalDepth::new(shared::<T>(depth)));
+        let model = AbsorbingSlab::<T>::new(ior::<T>(eta), tau);
         Case::new(format!("η {eta}, optical depth {depth}"), model)
     };
     let mut cases: Vec<_> = INDICES.iter().map(|&eta| case(eta, 0.5)).collect();

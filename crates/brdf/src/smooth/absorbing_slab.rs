@@ -6,20 +6,20 @@ use crate::bsdf::above;
 use crate::direction::reflect;
 use crate::fresnel::{RelativeIndex, dielectric, dielectric_transmittance};
 use crate::registry::{Albedo, Energy, ModelInfo, Reciprocity, parameter};
-use crate::{Absorption, Bsdf, BsdfReal, BsdfVec, Density, Ior, Lobes, ParameterError, Sample};
+use crate::{Bsdf, BsdfReal, BsdfVec, Density, Ior, Lobes, OpticalDepth, Sample};
 
 /// [`ThinDielectric`](crate::ThinDielectric) whose inside absorbs: all internal reflections summed, each passage
 /// attenuated.
 ///
 /// ```text
-/// A = exp(−σa d / cos θt),  R = F(cos θ, η),  T = 1 − R,  a = 1 − A
+/// A = exp(−τ / cos θt),  R = F(cos θ, η),  T = 1 − R,  a = 1 − A
 /// R' = R (a (1 + A) + 2 A² T) / ((a + A T)(1 + R A)),   T' = A T² / ((a + A T)(1 + R A))
 /// reflection:    wi = (−x, −y, z),  weight = R'/p,        probability p = mean R' / (mean R' + mean T')
 /// transmission:  wi = −wo,          weight = T'/(1 − p),  probability 1 − p
 /// ```
 ///
-/// * Parameters: η, σa and the thickness d, which is small against everything else in the scene but not
-///   against 1/σa.
+/// * Parameters: η and the optical depth τ = σa d per channel. The thickness d is small against everything else in
+///   the scene, but need not be against 1/σa.
 /// * Laws: reciprocal; albedo `R' + T' ≤ 1`. Delta, two-sided, the same from both sides.
 /// * Sampling: `u_lobe` chooses between the two; `None` at `wo.z = 0` and for zero weights.
 ///
@@ -33,27 +33,15 @@ use crate::{Absorption, Bsdf, BsdfReal, BsdfVec, Density, Ior, Lobes, ParameterE
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AbsorbingSlab<C: Spectrum> {
     eta: C::Real,
-    /// Over one passage along the normal.
-    optical_depth: Absorption<C>,
+    depth: OpticalDepth<C>,
 }
 
 impl<C: Spectrum> AbsorbingSlab<C> {
-    /// A slab of the given thickness, whose index relative to its surroundings is `eta`.
-    ///
-    /// # Errors
-    /// [`ParameterError`] where the thickness is negative or σa d is not finite.
-    pub fn new(
-        eta: Ior<C::Real>,
-        absorption: Absorption<C>,
-        thickness: C::Real,
-    ) -> Result<Self, ParameterError> {
-        if !(thickness >= C::Real::ZERO && thickness < C::Real::INFINITY) {
-            let value = thickness.to_f64();
-            let domain = "finite and not negative";
-            return Err(ParameterError { parameter: "thickness", value, domain });
-        }
-        let optical_depth = Absorption::new(absorption.value().scale(thickness))?;
-        Ok(Self { eta: eta.value(), optical_depth })
+    /// A slab whose index relative to its surroundings is `eta`; for the depth see
+    /// [`Absorption::depth`](crate::Absorption::depth).
+    #[inline]
+    pub fn new(eta: Ior<C::Real>, depth: OpticalDepth<C>) -> Self {
+        Self { eta: eta.value(), depth }
     }
 
     /// `[R', T']` at the cosine of incidence.
@@ -64,10 +52,8 @@ impl<C: Spectrum> AbsorbingSlab<C> {
             return [C::white(), C::black()];
         };
         let (r, t) = (dielectric(cos, self.eta), dielectric_transmittance(cos, self.eta));
-        // d / cos θt in units of the thickness.
-        let length = (self.eta / g).min(C::Real::MAX);
-        let passed = self.optical_depth.transmittance(length);
-        let lost = self.optical_depth.absorptance(length);
+        let cos_t = g / self.eta;
+        let [passed, lost] = [self.depth.transmittance(cos_t), self.depth.absorptance(cos_t)];
         let denominator = |pass: C::Real, lose: C::Real| (lose + pass * t) * (one + r * pass);
         let reflected = passed.zip(lost, |pass, lose| {
             let sum = denominator(pass, lose);
@@ -134,8 +120,7 @@ pub(crate) const INFO: ModelInfo = ModelInfo {
     type_name: "AbsorbingSlab",
     parameters: &[
         parameter::ETA,
-        parameter::named("sigma_a", "per length, each channel finite, not negative"),
-        parameter::named("thickness", "length, finite, not negative"),
+        parameter::named("optical depth", "each channel finite, not negative"),
     ],
     reciprocity: Reciprocity::Reciprocal,
     energy: Energy::Conserves,
@@ -153,7 +138,7 @@ mod tests {
     use etendue_math::glam::DVec3;
 
     fn pane(eta: f64, sigma: f64) -> AbsorbingSlab<f64> {
-        AbsorbingSlab::new(Ior::new(eta).unwrap(), Absorption::new(sigma).unwrap(), 1.0).unwrap()
+        AbsorbingSlab::new(Ior::new(eta).unwrap(), OpticalDepth::new(sigma).unwrap())
     }
 
     fn at(z: f64) -> DVec3 {
@@ -194,8 +179,8 @@ mod tests {
 
     #[test]
     fn every_channel_has_its_own_colour() {
-        let sigma = Absorption::new(Rgb::new(0.1_f32, 1.0, 10.0)).unwrap();
-        let slab = AbsorbingSlab::new(Ior::new(1.5).unwrap(), sigma, 0.5).unwrap();
+        let depth = OpticalDepth::new(Rgb::new(0.05_f32, 0.5, 5.0)).unwrap();
+        let slab = AbsorbingSlab::new(Ior::new(1.5).unwrap(), depth);
         let s = slab.sample(etendue_math::glam::Vec3::Z, 0.999, [0.0; 2]).unwrap();
         assert!(s.wi.z < 0.0 && s.weight.r > s.weight.g && s.weight.g > s.weight.b);
         laws::total(&slab);
@@ -208,8 +193,5 @@ mod tests {
                 laws::total(&pane(eta, sigma));
             }
         }
-        let sigma = Absorption::new(1.0_f32).unwrap();
-        assert!(AbsorbingSlab::new(Ior::new(1.5).unwrap(), sigma, f32::NAN).is_err());
-        assert!(AbsorbingSlab::new(Ior::new(1.5).unwrap(), sigma, -1.0).is_err());
     }
 }
