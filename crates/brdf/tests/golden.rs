@@ -131,7 +131,7 @@ fn check<T: Real + Spectrum<Real = T>>(share: f64) {
             }
         }
     }
-    assert!(rows > 4000, "only {rows} rows were found");
+    assert!(rows > 8000, "only {rows} rows were found");
     assert!(misses.is_empty(), "of {rows} rows these miss their bound:\n{}", misses.join("\n"));
 }
 

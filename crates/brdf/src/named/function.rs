@@ -5,9 +5,10 @@ use alloc::vec::Vec;
 use etendue_math::{Real, Spectrum, Vec3};
 use etendue_sampling::warp::cosine_hemisphere;
 
+use super::phong::exponent;
 use super::{NamedError, Parameters, Reader};
 use crate::microfacet::{BeckmannLambda, Distribution, Masking, Microfacets};
-use crate::{Alpha, ComplexIor, Ior, Reflectance, fresnel};
+use crate::{Absorption, Alpha, ComplexIor, Ior, PhongHalfVectors, Reflectance, fresnel};
 
 /// What a function returns.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -52,6 +53,12 @@ fn entries<T: Real + Spectrum<Real = T>>() -> Vec<Entry<T>> {
         evaluate,
     };
     [
+        of("beer-lambert", &["sigma_a", "distance"], |r| {
+            let medium = r.checked("sigma_a", Absorption::new(r.number::<T>("sigma_a")?))?;
+            let valid = |x: T| x >= T::ZERO && x < T::INFINITY;
+            let distance = r.within("distance", "finite and not negative", valid)?;
+            Ok(Output::Number(medium.transmittance(distance)))
+        }),
         of("f0-from-ior", &["eta"], |r| Ok(Output::Number(fresnel::f0_from_ior(index::<T>(r)?)))),
         of("fresnel-conductor", &["eta", "k", "cos_theta_i"], |r| {
             let ior: ComplexIor<T> = r.complex_ior()?;
@@ -71,6 +78,11 @@ fn entries<T: Real + Spectrum<Real = T>>() -> Vec<Entry<T>> {
             let w = r.vector::<T>("wi")?;
             r.direction::<T>("wi")?;
             Ok(Output::Direction(fresnel::refract(w, index(r)?)))
+        }),
+        of("sample-ashikhmin-shirley-half", &["nu", "nv", "xi"], |r| {
+            let lobe = PhongHalfVectors::<T>::new(exponent(r, "nu")?, exponent(r, "nv")?);
+            let (direction, pdf) = lobe.sample(uniforms(r)?);
+            Ok(Output::Sample { direction, pdf })
         }),
         of("sample-cosine-hemisphere", &["xi"], |r| {
             let direction = cosine_hemisphere::from_square_polar(uniforms::<T>(r)?);
@@ -126,7 +138,7 @@ fn index<T: Real>(reader: &Reader) -> Result<T, NamedError> {
 }
 
 fn cosine<T: Real>(reader: &Reader) -> Result<T, NamedError> {
-    reader.within("cos_theta_i", "finite", T::is_finite)
+    reader.within("cos_theta_i", "finite", Real::is_finite)
 }
 
 fn uniforms<T: Real>(reader: &Reader) -> Result<[T; 2], NamedError> {

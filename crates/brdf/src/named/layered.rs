@@ -6,17 +6,23 @@ use etendue_math::Spectrum;
 
 use super::forward::OwnedRoughPlastic;
 use super::{Built, Entry, NamedError, Reader};
-use crate::layered::{plastic, rough_plastic};
+use crate::layered::{
+    coupled, layered_fresnel, layered_linear, plastic, rough_coupled, rough_plastic,
+};
 use crate::{
-    Alpha, InternalReflectance, InternalScattering, Masking, Plastic, PlasticInterface,
-    TransmittanceTable,
+    Alpha, Coupled, CoupledInterface, InternalReflectance, InternalScattering, LayeredFresnel,
+    LayeredLinear, Masking, Plastic, PlasticInterface, RoughCoupled, TransmittanceTable,
 };
 
 const BETWEEN_MEDIA: &[&str] = &["ior_int", "ior_ext"];
 
-pub(super) fn entries<C: Spectrum>() -> [Entry<C>; 2] {
+pub(super) fn entries<C: Spectrum>() -> [Entry<C>; 6] {
     [
+        Entry { info: &coupled::INFO, synonyms: &["eta"], build: coupled },
+        Entry { info: &layered_fresnel::INFO, synonyms: &[], build: layered_fresnel },
+        Entry { info: &layered_linear::INFO, synonyms: &[], build: layered_linear },
         Entry { info: &plastic::INFO, synonyms: BETWEEN_MEDIA, build: plastic },
+        Entry { info: &rough_coupled::INFO, synonyms: &["eta", "alpha"], build: rough_coupled },
         Entry { info: &rough_plastic::INFO, synonyms: BETWEEN_MEDIA, build: rough_plastic },
     ]
 }
@@ -52,4 +58,32 @@ fn rough_plastic<C: Spectrum>(reader: &Reader) -> Built<C> {
         scattering: scattering(reader)?,
         specular: reader.factor("specular_reflectance")?,
     }))
+}
+
+/// Schlick's reflectance from `r0`, or the exact one from `eta`.
+fn coupled_interface<C: Spectrum>(reader: &Reader) -> Result<CoupledInterface<C>, NamedError> {
+    if reader.either("r0", "eta") == "r0" {
+        return Ok(CoupledInterface::schlick(reader.reflectance("r0")?));
+    }
+    reader.checked("eta", CoupledInterface::dielectric(reader.ior()?))
+}
+
+fn coupled<C: Spectrum>(reader: &Reader) -> Built<C> {
+    Ok(Box::new(Coupled::<C>::new(coupled_interface(reader)?, reader.reflectance("rm")?)))
+}
+
+fn rough_coupled<C: Spectrum>(reader: &Reader) -> Built<C> {
+    let facets = reader.microfacets(Masking::HeightCorrelated)?;
+    let interface = coupled_interface(reader)?;
+    Ok(Box::new(RoughCoupled::<C>::new(interface, facets, reader.reflectance("rm")?)))
+}
+
+fn layered_fresnel<C: Spectrum>(reader: &Reader) -> Built<C> {
+    Ok(Box::new(LayeredFresnel::<C>::new(reader.reflectance("r0")?, reader.reflectance("rd")?)))
+}
+
+fn layered_linear<C: Spectrum>(reader: &Reader) -> Built<C> {
+    let (rd, rs) = (reader.reflectance("rd")?, reader.reflectance("rs")?);
+    let model: LayeredLinear<C> = reader.constructed(LayeredLinear::new(rd, rs))?;
+    Ok(Box::new(model))
 }

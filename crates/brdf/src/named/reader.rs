@@ -54,6 +54,14 @@ impl<'a> Reader<'a> {
             .map_err(|e| NamedError::Domain { of, error: ParameterError { parameter: name, ..e } })
     }
 
+    /// Attaches this model to what a constructor has to say about several parameters together.
+    pub(super) fn constructed<P>(
+        &self,
+        outcome: Result<P, ParameterError>,
+    ) -> Result<P, NamedError> {
+        outcome.map_err(|error| NamedError::Domain { of: self.of, error })
+    }
+
     fn kind(&self, parameter: &'static str, expected: impl Into<String>) -> NamedError {
         NamedError::Kind { of: self.of, parameter, expected: expected.into() }
     }
@@ -163,13 +171,12 @@ impl<'a> Reader<'a> {
             return self.checked("eta", Ior::new(self.number("eta")?));
         }
         let (interior, exterior) = (self.number("ior_int")?, self.number("ior_ext")?);
-        Ior::from_media(interior, exterior)
-            .map_err(|error| NamedError::Domain { of: self.of, error })
+        self.constructed(Ior::from_media(interior, exterior))
     }
 
     pub(super) fn complex_ior<C: Spectrum>(&self) -> Result<ComplexIor<C>, NamedError> {
         let (eta, k) = (self.color("eta")?, self.color("k")?);
-        ComplexIor::new(eta, k).map_err(|error| NamedError::Domain { of: self.of, error })
+        self.constructed(ComplexIor::new(eta, k))
     }
 
     pub(super) fn distribution(&self) -> Result<Distribution, NamedError> {

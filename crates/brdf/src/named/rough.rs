@@ -4,7 +4,7 @@ use alloc::boxed::Box;
 
 use etendue_math::Spectrum;
 
-use super::{Built, Entry, NamedError, Reader};
+use super::{Built, Entry, Reader};
 use crate::rough::{conductor, dielectric, rough_conductor, rough_dielectric};
 use crate::{Conductor, Dielectric, Masking, RoughConductor, RoughDielectric};
 
@@ -29,8 +29,8 @@ fn rough_conductor<C: Spectrum>(reader: &Reader) -> Built<C> {
 fn conductor<C: Spectrum>(reader: &Reader) -> Built<C> {
     let masking = reader.masking(Masking::HeightCorrelated)?;
     let (ior, widths) = (reader.complex_ior()?, reader.widths()?);
-    let model = Conductor::new(ior, reader.distribution()?, widths, masking)
-        .map_err(|error| NamedError::Domain { of: reader.of, error })?;
+    let model = Conductor::new(ior, reader.distribution()?, widths, masking);
+    let model = reader.constructed(model)?;
     Ok(Box::new(model.with_specular_reflectance(reader.factor("specular_reflectance")?)))
 }
 
@@ -45,8 +45,8 @@ fn rough_dielectric<C: Spectrum>(reader: &Reader) -> Built<C> {
 fn dielectric<C: Spectrum>(reader: &Reader) -> Built<C> {
     let masking = reader.masking(Masking::Separable)?;
     let (eta, widths) = (reader.ior()?, reader.widths()?);
-    let model: Dielectric<C> = Dielectric::new(eta, reader.distribution()?, widths, masking)
-        .map_err(|error| NamedError::Domain { of: reader.of, error })?;
+    let model = Dielectric::new(eta, reader.distribution()?, widths, masking);
+    let model: Dielectric<C> = reader.constructed(model)?;
     let (ks, kt) = reader.factors()?;
     Ok(Box::new(model.with_factors(ks, kt)))
 }

@@ -4,6 +4,7 @@ use alloc::borrow::ToOwned;
 use alloc::string::String;
 
 use etendue_math::{Real, Spectrum, Vec3, Vector3};
+use etendue_sampling::warp::cosine_hemisphere;
 
 use super::reader::DIRECTION;
 use super::{NamedError, Output, Parameters, Value, build, direction, function};
@@ -65,7 +66,7 @@ pub enum Answer<T: Real> {
     Bsdf {
         /// Value in sr⁻¹.
         f: T,
-        /// Density in sr⁻¹ of sampling `wi`.
+        /// Density in sr⁻¹ of sampling `wi`; for a matte term under a mirror, that of sampling it from the matte term.
         pdf: T,
     },
     /// Of a function.
@@ -81,6 +82,10 @@ pub enum Answer<T: Real> {
 
 /// Models of a sheet, whose two sides are the same medium: their albedo is what they reflect.
 const SHEETS: &[&str] = &["diffuse-transmitter"];
+
+/// Models of a mirror and a cosine-sampled matte term. With what probability the latter is chosen is a matter of the
+/// sampler, and 0 where it is black; the density within it is a matter of the model.
+const MATTE_UNDER_MIRROR: &[&str] = &["coupled", "layered-fresnel", "layered-linear", "plastic"];
 
 impl Row {
     /// The answer in precision `T`.
@@ -98,7 +103,10 @@ impl Row {
             (None, Some(model)) => {
                 let bsdf = build::<T>(model, &self.params)?;
                 let (wi, wo) = (unit::<T>("wi", self.wi.as_ref())?, unit::<T>("wo", self.wo.as_ref())?);
-                let (f, pdf) = bsdf.eval_pdf(wo, wi);
+                let (f, mut pdf) = bsdf.eval_pdf(wo, wi);
+                if MATTE_UNDER_MIRROR.contains(&model) && wo.z() > T::ZERO {
+                    pdf = cosine_hemisphere::pdf::<T>(wi);
+                }
                 Ok(Answer::Bsdf { f, pdf })
             }
             (None, None) => Err(NamedError::Missing { of: "a row", parameter: "model" }),
