@@ -61,6 +61,7 @@ fn reciprocity(reciprocity: Reciprocity) -> String {
     match reciprocity {
         Reciprocity::Reciprocal => "reciprocal".into(),
         Reciprocity::UpToSquaredIndex => "reciprocal up to the squared index".into(),
+        Reciprocity::NonReciprocal { .. } => "not reciprocal".into(),
     }
 }
 
