@@ -1,10 +1,11 @@
 //! Surfaces of microfacets.
 
+use etendue_brdf::microfacet::{AllNormals, BoundedCaps, NormalSampling, ProjectedDisk};
 use etendue_brdf::{
     ComplexIor, Conductor, Dielectric, Distribution, Masking, RoughConductor, RoughDielectric,
 };
 
-use super::parameters::{METALS, complex, facets, ior, on_surfaces, valid};
+use super::parameters::{METALS, SURFACES, complex, facets, ior, on_surfaces, valid, width};
 use crate::scalar::{Scalar, shared};
 use crate::subject::{Case, Width};
 
@@ -13,10 +14,27 @@ pub(super) fn rough_conductor<T: Scalar>() -> Vec<Case<T>> {
     let gold = |facets| RoughConductor::new(complex::<T>(METALS[1].1), facets);
     let mut cases = on_surfaces(", perfect mirror", mirror);
     cases.extend(on_surfaces(", gold", gold));
+    cases.extend(sampled_by::<T, AllNormals>("all normals"));
+    cases.extend(sampled_by::<T, ProjectedDisk>("projected disk"));
+    cases.extend(sampled_by::<T, BoundedCaps>("bounded caps"));
     // The only closed form of a rough albedo: 1 − ln 2.
     let widest = facets::<T>(Distribution::Ggx, [1.0; 2], Masking::HeightCorrelated);
     cases.push(Case::new("ggx α 1, perfect mirror", mirror(widest)).published(&[(0.0, 0.306_853)]));
     cases
+}
+
+/// A perfect mirror on every surface that a sampling strategy exists for.
+fn sampled_by<T: Scalar, S: NormalSampling<T>>(strategy: &str) -> Vec<Case<T>> {
+    SURFACES
+        .iter()
+        .filter(|surface| S::supports(surface.1))
+        .map(|&(name, distribution, widths, masking)| {
+            let surface = facets::<T>(distribution, widths, masking);
+            let model = RoughConductor::<T>::new(ComplexIor::perfect(), surface);
+            Case::new(format!("{name}, perfect mirror, {strategy}"), valid(model.sampled_by::<S>()))
+                .of_width(width::<T>(widths[0]))
+        })
+        .collect()
 }
 
 pub(super) fn conductor<T: Scalar>() -> Vec<Case<T>> {

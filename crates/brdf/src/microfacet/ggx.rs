@@ -1,5 +1,11 @@
 //! GGX (Trowbridge–Reitz) microfacets.
 
+mod bounded;
+mod disk;
+
+pub use bounded::{bounded_area, sample_bounded_normal};
+pub use disk::sample_visible_normal_by_disk;
+
 use etendue_math::{Real, Vec3, Vector3};
 
 /// Density of facet normals D(h), per steradian of `h` and area of the mean surface.
@@ -59,6 +65,27 @@ pub fn lambda<T: Real>(w: Vec3<T>, alpha_x: T, alpha_y: T) -> T {
 pub fn projected_area<T: Real>(w: Vec3<T>, alpha_x: T, alpha_y: T) -> T {
     let (x, y, z) = (alpha_x * w.x(), alpha_y * w.y(), w.z());
     T::HALF * (z + (z * z + x * x + y * y).sqrt())
+}
+
+/// A facet normal, seen or not, with density `D(h) hz`.
+///
+/// ```text
+/// h = normalize(αx √u₁ cos 2πu₀, αy √u₁ sin 2πu₀, √(1 − u₁))
+/// ```
+///
+/// `u`: uniforms in `[0, 1)`. `None` where the vector underflows.
+///
+/// # Precision
+/// Both roots are of numbers as exact as the uniforms: the slope `α √(u₁ / (1 − u₁))` keeps its digits
+/// for any α.
+///
+/// # Source
+/// B. Walter et al., EGSR 2007, eqs. 35 and 36, as a vector instead of angles.
+#[inline]
+pub fn sample_normal<T: Real>(alpha_x: T, alpha_y: T, u: [T; 2]) -> Option<Vec3<T>> {
+    let (radius, z) = (u[1].sqrt(), (T::ONE - u[1]).safe_sqrt());
+    let (sin, cos) = (T::TWO * T::PI * u[0]).sin_cos();
+    Vec3::<T>::new(alpha_x * radius * cos, alpha_y * radius * sin, z).try_normalize()
 }
 
 /// A facet normal visible from `wo`, with density `D(h) (wo·h) / σ(wo)`.

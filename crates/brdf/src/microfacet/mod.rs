@@ -12,8 +12,10 @@
 
 pub mod beckmann;
 pub mod ggx;
+mod sampling;
 mod smith;
 
+pub use sampling::{AllNormals, BoundedCaps, NormalSampling, ProjectedDisk, VisibleNormals};
 pub use smith::{Masking, Microfacets};
 
 /// Distribution of facet normals.
