@@ -21,6 +21,7 @@
 //! | [`Lambert`] | ideal diffuse | cosine |
 //! | [`OrenNayar`], [`OrenNayarQualitative`] | rough diffuse (V-cavities) | cosine |
 //! | [`SmoothConductor`], [`RoughConductor`], [`Conductor`] | metal; the last chooses by roughness | mirror; visible normals |
+//! | [`KullaContyConductor`], [`TurquinConductor`] | rough metal with what scatters more than once | visible normals, and cosine |
 //! | [`SmoothDielectric`], [`RoughDielectric`], [`Dielectric`] | glass; the last chooses by roughness and index | Fresnel; visible normals |
 //! | [`ThinDielectric`] | pane | Fresnel of the slab |
 //! | [`Plastic`], [`RoughPlastic`] | diffuse base under a dielectric | mirror or visible normals, and cosine |
@@ -56,8 +57,8 @@
 //! target. `arch` makes `libm` faster without `std`.
 //!
 //! # Non-goals
-//! No textures, no world space, no normal maps: those belong to a scene. No polarisation. No
-//! multiple scattering between facets yet: rough models lose what it would return.
+//! No textures, no world space, no normal maps: those belong to a scene. No polarisation. Rough
+//! models lose what scatters more than once between facets, but for those that say otherwise.
 #![no_std]
 #![forbid(unsafe_code)]
 #![allow(
@@ -97,7 +98,9 @@ pub use microfacet::{BeckmannLambda, Distribution, Masking, Microfacets};
 pub use param::{
     Alpha, ComplexIor, Ior, Opacity, OpticalDepth, ParameterError, Reflectance, Sigma,
 };
-pub use rough::{Conductor, Dielectric, RoughConductor, RoughDielectric};
+pub use rough::{
+    Conductor, Dielectric, KullaContyConductor, RoughConductor, RoughDielectric, TurquinConductor,
+};
 pub use smooth::{Null, SmoothConductor, SmoothDielectric, ThinDielectric};
 
 /// Runs the README's example.

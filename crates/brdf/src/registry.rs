@@ -9,6 +9,8 @@ pub enum Reciprocity {
     Reciprocal,
     /// Reflection is reciprocal; refraction up to the squared index, `f/η²` being symmetric.
     UpToSquaredIndex,
+    /// The value changes; for comparison with models that keep it.
+    Broken,
 }
 
 /// Whether a model can reflect more than it receives.
@@ -91,6 +93,9 @@ pub(crate) mod parameter {
     pub(crate) const ALPHA_Y: ParameterInfo = named("alpha_y", "in [1e-8, 1e4]");
     pub(crate) const DISTRIBUTION: ParameterInfo =
         named("distribution", "GGX, Beckmann (exact or Walter's fit)");
+    pub(crate) const TABULATED_ALPHA: ParameterInfo = named("alpha", "in [1e-8, 1], isotropic");
+    pub(crate) const TABULATED: ParameterInfo =
+        named("facets", "GGX of either masking, Beckmann height-correlated and exact");
     pub(crate) const MASKING: ParameterInfo = named("masking", "height-correlated, separable");
     pub(crate) const SCATTERING: ParameterInfo = named("scattering", "linear, non-linear");
     pub(crate) const INTERNAL: ParameterInfo = named("internal reflectance", "exact, Mitsuba");
@@ -103,6 +108,7 @@ pub(crate) mod parameter {
 pub const MODELS: &[ModelInfo] = &[
     rough::conductor::INFO,
     rough::dielectric::INFO,
+    rough::kulla_conty::INFO,
     diffuse::lambert::INFO,
     adapter::mask::INFO,
     smooth::null::INFO,
@@ -115,6 +121,7 @@ pub const MODELS: &[ModelInfo] = &[
     smooth::smooth_conductor::INFO,
     smooth::smooth_dielectric::INFO,
     smooth::thin_dielectric::INFO,
+    rough::turquin::INFO,
     adapter::two_sided::INFO,
 ];
 

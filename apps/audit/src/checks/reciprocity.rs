@@ -24,6 +24,9 @@ pub(super) fn check<T: Scalar>(subject: &Subject<T>, context: &Context) -> Outco
     if !lobes.continuous {
         return Outcome::NotApplicable("no continuous part");
     }
+    if subject.laws.reciprocity == Reciprocity::Broken {
+        return Outcome::NotApplicable("documented as not reciprocal");
+    }
     let index = [1.0, -1.0].map(|z| subject.case.relative_index(from_angles::<T>(z, 0.0)));
     let mut worst = Worst::default();
     for i in 0..context.budget.pairs as u64 {
@@ -32,7 +35,7 @@ pub(super) fn check<T: Scalar>(subject: &Subject<T>, context: &Context) -> Outco
             Reciprocity::UpToSquaredIndex if wo.z() * wi.z() < T::ZERO => {
                 index[usize::from(wo.z() < T::ZERO)]
             }
-            Reciprocity::UpToSquaredIndex | Reciprocity::Reciprocal => 1.0,
+            _ => 1.0,
         };
         let there = bsdf.eval(wo, wi).to_f64() * eta * eta;
         let back = bsdf.eval(wi, wo).to_f64();

@@ -81,7 +81,7 @@ fn cap_above(v: Vec3, b: f32, x: f32, y: f32, u: [f32; 2]) -> Option<Vec3> {
     let (sin_phi, cos_phi) = Real::sin_cos(2.0 * f32::PI * u[0]);
     let r = (1.0 - z * z).max(0.0).sqrt();
     let h = Vec3::new(r * cos_phi, r * sin_phi, z) + v;
-    Some(Vec3::new(x * h.x, y * h.y, h.z.max(0.0)).normalize())
+    Vec3::new(x * h.x, y * h.y, h.z.max(0.0)).try_normalize()
 }
 
 /// Listing 1 of Heitz 2018.
@@ -95,5 +95,5 @@ fn disk_as_printed(wo: Vec3, x: f32, y: f32, u: [f32; 2]) -> Option<Vec3> {
     let s = 0.5 * (1.0 + v.z);
     let t2 = (1.0 - s) * (1.0 - t1 * t1).sqrt() + s * t2;
     let n = t1_axis * t1 + t2_axis * t2 + v * (1.0 - t1 * t1 - t2 * t2).max(0.0).sqrt();
-    Some(Vec3::new(x * n.x, y * n.y, n.z.max(0.0)).normalize())
+    Vec3::new(x * n.x, y * n.y, n.z.max(0.0)).try_normalize()
 }

@@ -10,7 +10,7 @@ mod refraction;
 mod relative_index;
 mod schlick;
 
-pub use average::{dielectric_average, dielectric_average_fit, schlick_average};
+pub use average::{conductor_average, dielectric_average, dielectric_average_fit, schlick_average};
 pub use conductor::conductor;
 pub use dielectric::{dielectric, dielectric_polarized, dielectric_transmittance};
 pub(crate) use refraction::{Refraction, refract_at};

@@ -67,6 +67,30 @@ pub fn projected_area<T: Real>(w: Vec3<T>, alpha_x: T, alpha_y: T) -> T {
     T::HALF * (z + (z * z + x * x + y * y).sqrt())
 }
 
+/// A rational fit of the height-correlated visibility `G2 / (4 cos θo cos θi)`, without roots; isotropic.
+///
+/// ```text
+/// V ≈ 1 / (2 (2 (1 − α) co ci + α (co + ci)))
+/// ```
+///
+/// It is the exact form with the root in [`projected_area`] replaced by its chord in cos θ, hence exact at
+/// α = 0, α = 1 and normal incidence, and never above the exact value.
+///
+/// * `cos_o`, `cos_i`: cosines in `[0, 1]`; `alpha` in `[0, 1]`. 0 where both cosines, or one and α, vanish.
+///
+/// # Precision
+/// Too dark by at most 29.3 % (a factor 1/√2), where both cosines are about α and α is small; by at most
+/// 20 % for α ≥ 0.3 and 14 % for α ≥ 0.5.
+///
+/// # Source
+/// E. Hammon, "PBR Diffuse Lighting for GGX + Smith Microsurfaces", GDC 2017.
+#[inline]
+pub fn visibility_hammon<T: Real>(cos_o: T, cos_i: T, alpha: T) -> T {
+    let product = T::TWO * (T::ONE - alpha) * cos_o * cos_i;
+    let area = T::TWO * (product + alpha * (cos_o + cos_i));
+    if area > T::ZERO { (T::ONE / area).min(T::MAX) } else { T::ZERO }
+}
+
 /// A facet normal, seen or not, with density `D(h) hz`.
 ///
 /// ```text
@@ -124,4 +148,37 @@ pub fn sample_visible_normal<T: Real>(
         (T::ONE - u[1]) * cap,
     )
     .try_normalize()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Alpha, Microfacets};
+    use etendue_math::glam::DVec3;
+
+    #[test]
+    fn hammons_fit_is_as_good_as_it_says() {
+        let direction = |cos: f64| DVec3::new((1.0 - cos * cos).sqrt(), 0.0, cos);
+        let worst_of = |alpha: f64| {
+            let facets = Microfacets::ggx(Alpha::new(alpha).unwrap());
+            let mut worst: f64 = 0.0;
+            for i in 0..60 {
+                for j in 0..60 {
+                    let [o, i] = [i, j].map(|k| Real::powf(10.0, -0.1 * f64::from(k)));
+                    let exact = facets.visibility(direction(o), direction(i));
+                    let error = 1.0 - visibility_hammon(o, i, alpha) / exact;
+                    // The chord of a convex function lies above it; rounding.
+                    assert!(error > -1e-12, "{alpha} {o} {i} {error}");
+                    worst = worst.max(error);
+                }
+            }
+            worst
+        };
+        for (alpha, bound) in [(1e-4, 0.293), (0.01, 0.293), (0.3, 0.2), (0.5, 0.14), (1.0, 1e-12)]
+        {
+            let worst = worst_of(alpha);
+            assert!(worst < bound, "{alpha} {worst}");
+        }
+        assert!(worst_of(1e-4) > 0.29);
+    }
 }

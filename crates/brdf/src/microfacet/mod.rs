@@ -10,11 +10,14 @@
 //!                            = 1 / (4 (cos θi σo + cos θo σi − cos θi cos θo))    height-correlated
 //! ```
 
+mod albedo;
 pub mod beckmann;
 pub mod ggx;
 mod sampling;
 mod smith;
+pub mod walk;
 
+pub use albedo::{FacetLoss, LossTable, facet_loss};
 pub use sampling::{AllNormals, BoundedCaps, NormalSampling, ProjectedDisk, VisibleNormals};
 pub use smith::{Masking, Microfacets};
 

@@ -129,3 +129,66 @@ impl<T: Real> NormalSampling<T> for BoundedCaps {
         ggx::bounded_area(wo, x, y)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::quadrature::directional_albedo;
+    use crate::{Alpha, BeckmannLambda, Bsdf, ComplexIor, Masking, RoughConductor};
+    use etendue_math::glam::DVec3;
+
+    const BECKMANN: Distribution = Distribution::Beckmann { lambda: BeckmannLambda::Exact };
+
+    fn mirror(distribution: Distribution, x: f64, y: f64) -> RoughConductor<f64> {
+        let [x, y] = [x, y].map(|a| Alpha::new(a).unwrap());
+        let facets = Microfacets::new(distribution, x, y, Masking::HeightCorrelated);
+        RoughConductor::new(ComplexIor::perfect(), facets)
+    }
+
+    /// Mean weight of a grid of samples, and the share of them that are lost.
+    fn estimate<S: NormalSampling<f64>>(model: RoughConductor<f64>, wo: DVec3) -> [f64; 2] {
+        const SIDE: u32 = 128;
+        let model = model.sampled_by::<S>().unwrap();
+        let (mut sum, mut lost) = (0.0, 0.0);
+        for k in 0..SIDE * SIDE {
+            let u = [k % SIDE, k / SIDE].map(|i| (f64::from(i) + 0.5) / f64::from(SIDE));
+            match model.sample(wo, 0.0, u) {
+                Some(sample) => sum += sample.weight,
+                None => lost += 1.0,
+            }
+        }
+        [sum, lost].map(|x| x / f64::from(SIDE * SIDE))
+    }
+
+    #[test]
+    fn every_strategy_estimates_the_same_albedo_and_bounded_caps_lose_least() {
+        for (x, y) in [(0.5, 0.5), (0.3, 0.8), (1.0, 1.0)] {
+            let model = mirror(Distribution::Ggx, x, y);
+            for cos in [1.0, 0.6, 0.2_f64] {
+                let wo = DVec3::new((1.0 - cos * cos).sqrt(), 0.0, cos);
+                let want = directional_albedo::<_, 96>(&model, wo);
+                let estimates = [
+                    estimate::<AllNormals>(model, wo),
+                    estimate::<ProjectedDisk>(model, wo),
+                    estimate::<VisibleNormals>(model, wo),
+                    estimate::<BoundedCaps>(model, wo),
+                ];
+                // 128² points: a lobe cut at the horizon, and for all normals a factor 1/hz.
+                for ([got, _], tolerance) in estimates.into_iter().zip([3e-2, 5e-3, 5e-3, 5e-3]) {
+                    assert!((got - want).abs() < tolerance, "{x} {y} {cos} {estimates:?} {want}");
+                }
+                let lost = estimates.map(|[_, lost]| lost);
+                assert!(lost[3] <= lost[2] && lost[2] <= lost[0], "{x} {y} {cos} {lost:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_strategy_that_does_not_exist_for_beckmann_is_refused() {
+        let model = mirror(BECKMANN, 0.3, 0.3);
+        assert!(model.sampled_by::<AllNormals>().is_ok());
+        assert!(model.sampled_by::<VisibleNormals>().is_ok());
+        assert!(model.sampled_by::<ProjectedDisk>().is_err());
+        assert!(model.sampled_by::<BoundedCaps>().is_err());
+    }
+}
