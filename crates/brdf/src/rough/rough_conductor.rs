@@ -24,7 +24,8 @@ use crate::{
 /// ```
 ///
 /// * Laws: reciprocal; directional albedo ≤ 1, and below it by what would scatter more than once
-///   (0.307 is left of 1 for GGX, α = 1, F = 1 at normal incidence).
+///   (0.307 is left of 1 for GGX, α = 1, F = 1 at normal incidence);
+///   [`KullaContyConductor`](crate::KullaContyConductor) returns that.
 /// * Sampling: normals by the strategy `S`, visible ones unless [`sampled_by`](Self::sampled_by) another
 ///   (see [`NormalSampling`]), two uniforms; `None` from below and where the reflected direction falls
 ///   below, which is a loss of the model and why the density integrates to less than 1.

@@ -22,11 +22,11 @@ use crate::{ComplexIor, Microfacets};
 /// use etendue_brdf::microfacet::walk::ConductorWalk;
 /// use etendue_brdf::{Alpha, ComplexIor, Microfacets};
 /// use etendue_math::glam::DVec3;
+/// use etendue_sampling::{Pcg32, uniform};
 /// let facets = Microfacets::ggx(Alpha::new(0.8_f64)?);
 /// let walk = ConductorWalk::<f64>::new(ComplexIor::perfect(), facets);
-/// let mut u = 0.37;
-/// let mut uniform = || { u = (u * 997.0_f64).fract(); u };
-/// let path = walk.sample(DVec3::Z, &mut uniforms).expect("it leaves in the end");
+/// let mut rng = Pcg32::new(1, 1);
+/// let path = walk.sample(DVec3::Z, &mut || uniform(&mut rng)).expect("it leaves in the end");
 /// assert!((path.weight - 1.0).abs() < 1e-14);
 /// # Ok::<(), etendue_brdf::ParameterError>(())
 /// ```
