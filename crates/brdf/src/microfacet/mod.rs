@@ -21,7 +21,7 @@
 mod albedo;
 pub mod beckmann;
 pub mod ggx;
-mod sampling;
+pub mod sampling;
 mod smith;
 pub mod walk;
 

@@ -94,12 +94,13 @@ impl<C: Spectrum> KullaContyConductor<C> {
         }
     }
 
-    /// Probability of the single-scattering lobe where `lost` is `l(θo)`.
+    /// Probabilities of the two lobes where `lost` is `l(θo)`; of a nearly smooth surface the second is
+    /// tiny, and not 1 less the first.
     #[inline(always)]
-    fn single_probability(&self, lost: C::Real) -> C::Real {
-        let (single, multiple) = ((C::Real::ONE - lost) * self.shares[0], lost * self.shares[1]);
-        let sum = single + multiple;
-        if sum > C::Real::ZERO { single / sum } else { C::Real::ONE }
+    fn probabilities(&self, lost: C::Real) -> [C::Real; 2] {
+        let shares = [(C::Real::ONE - lost) * self.shares[0], lost * self.shares[1]];
+        let sum = shares[0] + shares[1];
+        if sum > C::Real::ZERO { shares.map(|s| s / sum) } else { [C::Real::ONE, C::Real::ZERO] }
     }
 }
 
@@ -118,10 +119,10 @@ impl<C: Spectrum> Bsdf for KullaContyConductor<C> {
         }
         let (f, pdf) = self.single.eval_pdf(wo, wi);
         let lost = self.loss.at(wo.z());
-        let p = self.single_probability(lost);
+        let [single, multiple] = self.probabilities(lost);
         let diffuse = self.multiple.scale(lost * self.loss.at(wi.z()));
-        let mixed = p * pdf + (C::Real::ONE - p) * cosine_hemisphere::pdf::<C::Real>(wi);
-        ((f + diffuse).map(|x| x.min(C::Real::MAX)), mixed)
+        let pdf = single * pdf + multiple * cosine_hemisphere::pdf::<C::Real>(wi);
+        ((f + diffuse).map(|x| x.min(C::Real::MAX)), pdf.min(C::Real::MAX))
     }
 
     #[inline]
@@ -134,8 +135,8 @@ impl<C: Spectrum> Bsdf for KullaContyConductor<C> {
         if !above(wo) {
             return None;
         }
-        let p = self.single_probability(self.loss.at(wo.z()));
-        let wi = if u_lobe < p {
+        let [single, _] = self.probabilities(self.loss.at(wo.z()));
+        let wi = if u_lobe < single {
             self.single.sample(wo, u_lobe, u)?.wi
         } else {
             cosine_hemisphere::from_square(u)
