@@ -26,6 +26,7 @@
 //! | [`Phong`] | diffuse and a cosine power about the mirror direction | lobe and cosine |
 //! | [`AshikhminShirley`], [its specular](AshikhminShirleySpecular) and [diffuse part](AshikhminShirleyDiffuse) | anisotropic Phong over a diffuse base | half vectors, cosine |
 //! | [`SmoothConductor`], [`RoughConductor`], [`Conductor`] | metal; the last chooses by roughness | mirror; visible normals |
+//! | [`KullaContyConductor`], [`TurquinConductor`] | rough metal with what scatters more than once | visible normals, and cosine |
 //! | [`SmoothDielectric`], [`RoughDielectric`], [`Dielectric`] | glass; the last chooses by roughness and index | Fresnel; visible normals |
 //! | [`ThinDielectric`] | pane | Fresnel of the slab |
 //! | [`Plastic`], [`RoughPlastic`] | diffuse base under a dielectric | mirror or visible normals, and cosine |
@@ -66,8 +67,8 @@
 //! for files and command lines, and `serde` reads such descriptions from JSON and other formats.
 //!
 //! # Non-goals
-//! No textures, no world space, no normal maps: those belong to a scene. No polarisation. No
-//! multiple scattering between facets yet: rough models lose what it would return.
+//! No textures, no world space, no normal maps: those belong to a scene. No polarisation. Rough
+//! models lose what scatters more than once between facets, but for those that say otherwise.
 #![no_std]
 #![forbid(unsafe_code)]
 #![allow(
@@ -122,7 +123,9 @@ pub use phong::{
     AshikhminShirley, AshikhminShirleyDiffuse, AshikhminShirleySampling, AshikhminShirleySpecular,
     Phong, PhongHalfVectors,
 };
-pub use rough::{Conductor, Dielectric, RoughConductor, RoughDielectric};
+pub use rough::{
+    Conductor, Dielectric, KullaContyConductor, RoughConductor, RoughDielectric, TurquinConductor,
+};
 pub use smooth::{AbsorbingSlab, Null, SmoothConductor, SmoothDielectric, ThinDielectric};
 
 /// Runs the README's example.
