@@ -100,7 +100,8 @@ fn an_albedo_is_answered_by_side() {
 
 #[test]
 fn lines_that_are_no_rows_get_an_error_and_the_next_line_follows() {
-    let good = r#"{"model": "lambert", "params": {"albedo": 0.5}, "wi": [0, 0, 1], "wo": [0, 0, 1]}"#;
+    let good =
+        r#"{"model": "lambert", "params": {"albedo": 0.5}, "wi": [0, 0, 1], "wo": [0, 0, 1]}"#;
     let mut nested = String::new();
     for _ in 0..10_000 {
         nested += r#"{"params":{"inner":"#;
@@ -143,7 +144,11 @@ fn lines_that_are_no_rows_get_an_error_and_the_next_line_follows() {
         assert_eq!(answers.len(), 2 * hostile.len());
         for (line, pair) in hostile.iter().zip(answers.chunks(2)) {
             let line = String::from_utf8_lossy(&line[..line.len().min(200)]);
-            assert!(pair[0]["error"].as_str().is_some_and(|e| !e.is_empty()), "{line}: {}", pair[0]);
+            assert!(
+                pair[0]["error"].as_str().is_some_and(|e| !e.is_empty()),
+                "{line}: {}",
+                pair[0]
+            );
             assert!(pair[1]["f"].as_f64().is_some_and(|f| f > 0.159), "{line}: {}", pair[1]);
         }
     }
@@ -166,7 +171,8 @@ fn the_list_names_every_model_as_text_and_as_json() {
 #[test]
 fn a_plot_is_an_svg_with_every_model_and_no_number_that_is_none() {
     let folder = Folder::new();
-    let models = ["lambert:albedo=0.8", "smooth-dielectric:eta=1.5", "phong:kd=0.2,ks=0.6,exponent=50"];
+    let models =
+        ["lambert:albedo=0.8", "smooth-dielectric:eta=1.5", "phong:kd=0.2,ks=0.6,exponent=50"];
     let outcome = folder.run(&[&["brdf", "plot"], &models[..], &["-o", "out.svg"]].concat());
     assert_eq!(outcome.exit, Some(0), "{}", outcome.stderr);
     let svg = fs::read_to_string(folder.path("out.svg")).expect("a picture");

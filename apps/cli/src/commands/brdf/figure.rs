@@ -26,8 +26,7 @@ const CHART_HEIGHT: f64 = 300.0;
 pub(super) fn figure(models: &[Curves], angles: &[f64]) -> String {
     let columns = models.len().clamp(2, PER_ROW);
     let rows = models.len().div_ceil(PER_ROW);
-    let extent =
-        if models.iter().any(|m| m.transmits) { Extent::Whole } else { Extent::UpperHalf };
+    let extent = if models.iter().any(|m| m.transmits) { Extent::Whole } else { Extent::UpperHalf };
     let panel_height = 96.0 + if extent == Extent::Whole { 2.0 * RADIUS } else { RADIUS };
     let charts = rows as f64 * panel_height + 30.0;
     let size = [columns as f64 * PANEL, charts + CHART_HEIGHT + 10.0];
@@ -66,6 +65,8 @@ fn polar(
     let centre = [left + PANEL / 2.0, top + 70.0 + RADIUS];
     svg.text("title", [centre[0], top + 20.0], Anchor::Middle, &model.name);
     svg.text("small", [centre[0], top + 35.0], Anchor::Middle, &model.parameters);
+    let key = [centre[0] - 20.0, top + 44.0];
+    svg.line(&format!("curve c{colour}"), key, [key[0] + 40.0, key[1]]);
     let at = |degrees: f64, radius: f64| {
         let (sin, cos) = Real::sin_cos(degrees.to_radians());
         [centre[0] + radius * sin, centre[1] - radius * cos]
@@ -93,8 +94,7 @@ fn polar(
     for (pattern, (lobe, &degrees)) in model.lobes.iter().zip(angles).enumerate() {
         svg.line(&format!("viewer p{pattern}"), at(-degrees, RADIUS), at(-degrees, RADIUS - 14.0));
         if peak > 0.0 {
-            let points =
-                lobe.points.iter().map(|&[angle, f]| at(angle, RADIUS * f / scale.end));
+            let points = lobe.points.iter().map(|&[angle, f]| at(angle, RADIUS * f / scale.end));
             svg.polyline(&format!("curve c{colour} p{pattern}"), points);
         }
         for delta in &lobe.deltas {
@@ -113,7 +113,7 @@ fn polar(
 
 /// Which line pattern belongs to which viewer.
 fn pattern_legend(svg: &mut Svg, y: f64, width: f64, angles: &[f64]) {
-    let step = 120.0;
+    let step = 160.0;
     let start = (width - step * angles.len() as f64) / 2.0;
     for (pattern, degrees) in angles.iter().enumerate() {
         let x = start + step * pattern as f64;

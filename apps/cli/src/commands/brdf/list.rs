@@ -73,14 +73,10 @@ fn energy(energy: &Energy) -> String {
 }
 
 fn lobes(lobes: Lobes) -> Vec<&'static str> {
-    [
-        (lobes.continuous, "continuous"),
-        (lobes.delta, "delta"),
-        (lobes.transmission, "transmission"),
-    ]
-    .into_iter()
-    .filter_map(|(has, name)| has.then_some(name))
-    .collect()
+    [(lobes.continuous, "continuous"), (lobes.delta, "delta"), (lobes.transmission, "transmission")]
+        .into_iter()
+        .filter_map(|(has, name)| has.then_some(name))
+        .collect()
 }
 
 fn albedo(albedo: Albedo) -> &'static str {

@@ -22,8 +22,9 @@ impl FromStr for Specification {
         let (model, list) = text.split_once(':').unwrap_or((text, ""));
         let mut parameters = Parameters::new();
         for item in list.split(',').filter(|item| !item.is_empty()) {
-            let (name, value) =
-                item.split_once('=').ok_or_else(|| format!("{item:?} is not of the form key=value"))?;
+            let (name, value) = item
+                .split_once('=')
+                .ok_or_else(|| format!("{item:?} is not of the form key=value"))?;
             if parameters.get(name).is_some() {
                 return Err(format!("{name:?} is given twice"));
             }
@@ -60,7 +61,8 @@ mod tests {
 
     #[test]
     fn names_numbers_and_words_are_told_apart() {
-        let ggx: Specification = "rough-dielectric:alpha=0.1,eta=1.5,distribution=ggx".parse().unwrap();
+        let ggx: Specification =
+            "rough-dielectric:alpha=0.1,eta=1.5,distribution=ggx".parse().unwrap();
         assert!(ggx.build().is_ok());
         assert_eq!(ggx.parts(), ("rough-dielectric", "alpha=0.1,eta=1.5,distribution=ggx"));
         assert!("null".parse::<Specification>().unwrap().build().is_ok());
