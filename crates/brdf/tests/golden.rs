@@ -1,5 +1,8 @@
 //! Every row of exact values, in both precisions; see `golden/README.md` for the conventions.
 
+#[path = "golden/bound.rs"]
+mod bound;
+
 use std::fs;
 use std::path::Path;
 
@@ -11,9 +14,8 @@ use etendue_brdf::{
 use etendue_math::{Real, Spectrum, Vec3, Vector3};
 use serde_json::Value;
 
-/// Largest condition-scaled error in ulps of `f32`: rows drawn at random, and rows sought out.
-const TYPICAL: f64 = 8.0;
-const HARD: f64 = 64.0;
+use bound::{HARD, LEAST, TYPICAL, ulp32};
+
 /// What is left of these bounds in `f64`: its ε is 2⁻²⁹ = 1.9e-9 of that of `f32`, so 1e-6 allows
 /// 500 times as many roundings and no constant of `f32` precision.
 const F64_SHARE: f64 = 1e-6;
@@ -137,15 +139,6 @@ impl Row<'_> {
     fn distribution(&self) -> &str {
         self.0["params"]["distribution"].as_str().unwrap_or_default()
     }
-}
-
-/// The smallest positive `f32`, 2⁻¹⁴⁹.
-const LEAST: f64 = f32::from_bits(1) as f64;
-
-/// Spacing of `f32` at `x`, 2²³ of them to the power of two below.
-fn ulp32(x: f64) -> f64 {
-    let exponent = x.abs().log2().floor();
-    if exponent < -126.0 { LEAST } else { exponent.exp2() / 8_388_608.0 }
 }
 
 /// The condition-scaled error of a number, in ulps of `f32`; infinite for a broken one.

@@ -1,0 +1,157 @@
+//! The list of models.
+
+use etendue_brdf::{
+    Alpha, BeckmannLambda, Bsdf, ComplexIor, Conductor, Dielectric, Distribution,
+    InternalReflectance, InternalScattering, Ior, Lambert, Mask, Masking, Microfacets, Null,
+    Opacity, OrenNayar, OrenNayarQualitative, ParameterError, Plastic, PlasticInterface,
+    Reflectance, RoughConductor, RoughDielectric, RoughPlastic, Sigma, SmoothConductor,
+    SmoothDielectric, ThinDielectric, TransmittanceTable, TwoSided,
+};
+
+use crate::{Parameters, Scalar};
+
+/// A model and how it is built.
+pub trait Specimen {
+    /// Its name in `etendue_brdf::registry::MODELS`; behind a slash its form, where there are several.
+    const NAME: &'static str;
+
+    /// Builds the model and shows it to `visitor` (a model may borrow a table, so it cannot be returned).
+    ///
+    /// # Errors
+    /// [`ParameterError`] where the model refuses a parameter.
+    fn show<T: Scalar, V: Visitor<T>>(
+        parameters: &mut impl Parameters,
+        visitor: V,
+    ) -> Result<V::Output, ParameterError>;
+}
+
+/// What is done with one model.
+pub trait Visitor<T: Scalar> {
+    /// What comes of it.
+    type Output;
+
+    /// Does it.
+    fn visit(self, model: &impl Bsdf<Color = T>) -> Self::Output;
+}
+
+/// What is done with the list of models.
+pub trait Each {
+    /// Does it to one.
+    fn each<S: Specimen>(&mut self);
+}
+
+/// A specimen per line: type, name, and the model as an expression of parameters `p` and scalar `T`.
+macro_rules! models {
+    ($($kind:ident $name:literal |$p:ident| $model:expr;)*) => {
+        /// The specimens as types.
+        pub mod specimen {
+            $(#[doc = concat!("`", $name, "`")]
+            #[derive(Clone, Copy, Debug)]
+            pub struct $kind;)*
+        }
+
+        $(impl Specimen for specimen::$kind {
+            const NAME: &'static str = $name;
+
+            #[inline]
+            fn show<T: Scalar, V: Visitor<T>>(
+                $p: &mut impl Parameters,
+                visitor: V,
+            ) -> Result<V::Output, ParameterError> {
+                Ok(visitor.visit(&$model))
+            }
+        })*
+
+        /// Shows every specimen to `each`, in the order of the names.
+        pub fn for_each(each: &mut impl Each) {
+            $(each.each::<specimen::$kind>();)*
+        }
+
+        /// The names, in order.
+        pub const NAMES: &[&str] = &[$($name),*];
+    };
+}
+
+models! {
+    Conductor "conductor" |p| Conductor::new(metal(p)?, distribution(p), [number(p, 0.25), number(p, 0.4)], masking(p))?;
+    Dielectric "dielectric" |p| Dielectric::<T>::new(ior(p)?, distribution(p), [number(p, 0.25), number(p, 0.4)], masking(p))?;
+    Lambert "lambert" |p| Lambert::new(reflectance::<T>(p)?);
+    Mask "mask" |p| Mask::new(Lambert::new(reflectance::<T>(p)?), Opacity::new(number(p, 0.5))?);
+    Null "null" |_p| Null::<T>::new();
+    OrenNayar "oren-nayar" |p| OrenNayar::new(reflectance::<T>(p)?, Sigma::new(number(p, 0.4))?);
+    OrenNayarQualitative "oren-nayar-qualitative" |p| OrenNayarQualitative::new(reflectance::<T>(p)?, Sigma::new(number(p, 0.4))?);
+    Plastic "plastic" |p| Plastic::new(PlasticInterface::new(ior(p)?, internal(p)), reflectance::<T>(p)?, scattering(p));
+    RoughConductor "rough-conductor" |p| RoughConductor::new(metal::<T>(p)?, facets(p)?);
+    RoughConductorBeckmann "rough-conductor/beckmann" |p| RoughConductor::new(metal::<T>(p)?, beckmann_facets(p)?);
+    RoughDielectric "rough-dielectric" |p| RoughDielectric::<T>::new(ior(p)?, facets(p)?)?;
+    RoughDielectricBeckmann "rough-dielectric/beckmann" |p| RoughDielectric::<T>::new(ior(p)?, beckmann_facets(p)?)?;
+    RoughPlastic "rough-plastic" |p| RoughPlastic::new(&TransmittanceTable::new(ior(p)?, distribution(p), alpha(p, 0.3)?, masking(p), internal(p)), reflectance::<T>(p)?, scattering(p));
+    SmoothConductor "smooth-conductor" |p| SmoothConductor::new(metal::<T>(p)?);
+    SmoothDielectric "smooth-dielectric" |p| SmoothDielectric::<T>::new(ior(p)?);
+    ThinDielectric "thin-dielectric" |p| ThinDielectric::<T>::new(ior(p)?);
+    TwoSided "two-sided" |p| TwoSided::new(RoughConductor::new(metal::<T>(p)?, facets(p)?), Lambert::new(reflectance(p)?));
+}
+
+fn number<T: Scalar>(p: &mut impl Parameters, typical: f64) -> T {
+    p.number(typical)
+}
+
+fn reflectance<T: Scalar>(p: &mut impl Parameters) -> Result<Reflectance<T>, ParameterError> {
+    Reflectance::new(p.number(0.6))
+}
+
+fn alpha<T: Scalar>(p: &mut impl Parameters, typical: f64) -> Result<Alpha<T>, ParameterError> {
+    Alpha::new(p.number(typical))
+}
+
+fn ior<T: Scalar>(p: &mut impl Parameters) -> Result<Ior<T>, ParameterError> {
+    Ior::new(p.number(1.5))
+}
+
+/// Copper at 600 nm.
+fn metal<T: Scalar>(p: &mut impl Parameters) -> Result<ComplexIor<T>, ParameterError> {
+    ComplexIor::new(p.number(0.24), p.number(3.34))
+}
+
+const EXACT: Distribution = Distribution::Beckmann { lambda: BeckmannLambda::Exact };
+const WALTER: Distribution = Distribution::Beckmann { lambda: BeckmannLambda::Walter };
+
+fn distribution(p: &mut impl Parameters) -> Distribution {
+    p.choice([Distribution::Ggx, EXACT, WALTER])
+}
+
+fn masking(p: &mut impl Parameters) -> Masking {
+    p.choice([Masking::HeightCorrelated, Masking::Separable])
+}
+
+fn facets<T: Scalar>(p: &mut impl Parameters) -> Result<Microfacets<T>, ParameterError> {
+    Ok(Microfacets::new(distribution(p), alpha(p, 0.3)?, alpha(p, 0.2)?, masking(p)))
+}
+
+fn beckmann_facets<T: Scalar>(p: &mut impl Parameters) -> Result<Microfacets<T>, ParameterError> {
+    let distribution = p.choice([EXACT, WALTER]);
+    Ok(Microfacets::new(distribution, alpha(p, 0.3)?, alpha(p, 0.2)?, masking(p)))
+}
+
+fn internal(p: &mut impl Parameters) -> InternalReflectance {
+    p.choice([InternalReflectance::Exact, InternalReflectance::Mitsuba])
+}
+
+fn scattering(p: &mut impl Parameters) -> InternalScattering {
+    p.choice([InternalScattering::Linear, InternalScattering::NonLinear])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use etendue_brdf::registry::MODELS;
+    use std::vec::Vec;
+
+    #[test]
+    fn every_registered_model_has_a_specimen() {
+        let mut names: Vec<_> = NAMES.iter().map(|n| n.split('/').next().unwrap()).collect();
+        names.dedup();
+        let registered: Vec<_> = MODELS.iter().map(|info| info.name).collect();
+        assert_eq!(names, registered);
+    }
+}
