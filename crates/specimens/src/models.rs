@@ -8,7 +8,9 @@ use etendue_brdf::{
     SmoothDielectric, ThinDielectric, TransmittanceTable, TwoSided,
 };
 
-use crate::{Parameters, Scalar};
+use etendue_math::{Real, Spectrum};
+
+use crate::Parameters;
 
 /// A model and how it is built.
 pub trait Specimen {
@@ -19,19 +21,19 @@ pub trait Specimen {
     ///
     /// # Errors
     /// [`ParameterError`] where the model refuses a parameter.
-    fn show<T: Scalar, V: Visitor<T>>(
+    fn show<C: Spectrum, V: Visitor<C>>(
         parameters: &mut impl Parameters,
         visitor: V,
     ) -> Result<V::Output, ParameterError>;
 }
 
 /// What is done with one model.
-pub trait Visitor<T: Scalar> {
+pub trait Visitor<C: Spectrum> {
     /// What comes of it.
     type Output;
 
     /// Does it.
-    fn visit(self, model: &impl Bsdf<Color = T>) -> Self::Output;
+    fn visit(self, model: &impl Bsdf<Color = C>) -> Self::Output;
 }
 
 /// What is done with the list of models.
@@ -40,7 +42,7 @@ pub trait Each {
     fn each<S: Specimen>(&mut self);
 }
 
-/// A specimen per line: type, name, and the model as an expression of parameters `p` and scalar `T`.
+/// A specimen per line: type, name, and the model as an expression of parameters `p` and colour `C`.
 macro_rules! models {
     ($($kind:ident $name:literal |$p:ident| $model:expr;)*) => {
         /// The specimens as types.
@@ -54,7 +56,7 @@ macro_rules! models {
             const NAME: &'static str = $name;
 
             #[inline]
-            fn show<T: Scalar, V: Visitor<T>>(
+            fn show<C: Spectrum, V: Visitor<C>>(
                 $p: &mut impl Parameters,
                 visitor: V,
             ) -> Result<V::Output, ParameterError> {
@@ -74,43 +76,43 @@ macro_rules! models {
 
 models! {
     Conductor "conductor" |p| Conductor::new(metal(p)?, distribution(p), [number(p, 0.25), number(p, 0.4)], masking(p))?;
-    Dielectric "dielectric" |p| Dielectric::<T>::new(ior(p)?, distribution(p), [number(p, 0.25), number(p, 0.4)], masking(p))?;
-    Lambert "lambert" |p| Lambert::new(reflectance::<T>(p)?);
-    Mask "mask" |p| Mask::new(Lambert::new(reflectance::<T>(p)?), Opacity::new(number(p, 0.5))?);
-    Null "null" |_p| Null::<T>::new();
-    OrenNayar "oren-nayar" |p| OrenNayar::new(reflectance::<T>(p)?, Sigma::new(number(p, 0.4))?);
-    OrenNayarQualitative "oren-nayar-qualitative" |p| OrenNayarQualitative::new(reflectance::<T>(p)?, Sigma::new(number(p, 0.4))?);
-    Plastic "plastic" |p| Plastic::new(PlasticInterface::new(ior(p)?, internal(p)), reflectance::<T>(p)?, scattering(p));
-    RoughConductor "rough-conductor" |p| RoughConductor::new(metal::<T>(p)?, facets(p)?);
-    RoughConductorBeckmann "rough-conductor/beckmann" |p| RoughConductor::new(metal::<T>(p)?, beckmann_facets(p)?);
-    RoughDielectric "rough-dielectric" |p| RoughDielectric::<T>::new(ior(p)?, facets(p)?)?;
-    RoughDielectricBeckmann "rough-dielectric/beckmann" |p| RoughDielectric::<T>::new(ior(p)?, beckmann_facets(p)?)?;
-    RoughPlastic "rough-plastic" |p| RoughPlastic::new(&TransmittanceTable::new(ior(p)?, distribution(p), alpha(p, 0.3)?, masking(p), internal(p)), reflectance::<T>(p)?, scattering(p));
-    SmoothConductor "smooth-conductor" |p| SmoothConductor::new(metal::<T>(p)?);
-    SmoothDielectric "smooth-dielectric" |p| SmoothDielectric::<T>::new(ior(p)?);
-    ThinDielectric "thin-dielectric" |p| ThinDielectric::<T>::new(ior(p)?);
-    TwoSided "two-sided" |p| TwoSided::new(RoughConductor::new(metal::<T>(p)?, facets(p)?), Lambert::new(reflectance(p)?));
+    Dielectric "dielectric" |p| Dielectric::<C>::new(ior(p)?, distribution(p), [number(p, 0.25), number(p, 0.4)], masking(p))?;
+    Lambert "lambert" |p| Lambert::new(reflectance::<C>(p)?);
+    Mask "mask" |p| Mask::new(Lambert::new(reflectance::<C>(p)?), Opacity::new(number(p, 0.5))?);
+    Null "null" |_p| Null::<C>::new();
+    OrenNayar "oren-nayar" |p| OrenNayar::new(reflectance::<C>(p)?, Sigma::new(number(p, 0.4))?);
+    OrenNayarQualitative "oren-nayar-qualitative" |p| OrenNayarQualitative::new(reflectance::<C>(p)?, Sigma::new(number(p, 0.4))?);
+    Plastic "plastic" |p| Plastic::new(PlasticInterface::new(ior(p)?, internal(p)), reflectance::<C>(p)?, scattering(p));
+    RoughConductor "rough-conductor" |p| RoughConductor::new(metal::<C>(p)?, facets(p)?);
+    RoughConductorBeckmann "rough-conductor/beckmann" |p| RoughConductor::new(metal::<C>(p)?, beckmann_facets(p)?);
+    RoughDielectric "rough-dielectric" |p| RoughDielectric::<C>::new(ior(p)?, facets(p)?)?;
+    RoughDielectricBeckmann "rough-dielectric/beckmann" |p| RoughDielectric::<C>::new(ior(p)?, beckmann_facets(p)?)?;
+    RoughPlastic "rough-plastic" |p| RoughPlastic::new(&TransmittanceTable::new(ior(p)?, distribution(p), alpha(p, 0.3)?, masking(p), internal(p)), reflectance::<C>(p)?, scattering(p));
+    SmoothConductor "smooth-conductor" |p| SmoothConductor::new(metal::<C>(p)?);
+    SmoothDielectric "smooth-dielectric" |p| SmoothDielectric::<C>::new(ior(p)?);
+    ThinDielectric "thin-dielectric" |p| ThinDielectric::<C>::new(ior(p)?);
+    TwoSided "two-sided" |p| TwoSided::new(RoughConductor::new(metal::<C>(p)?, facets(p)?), Lambert::new(reflectance(p)?));
 }
 
-fn number<T: Scalar>(p: &mut impl Parameters, typical: f64) -> T {
+fn number<T: Real>(p: &mut impl Parameters, typical: f64) -> T {
     p.number(typical)
 }
 
-fn reflectance<T: Scalar>(p: &mut impl Parameters) -> Result<Reflectance<T>, ParameterError> {
-    Reflectance::new(p.number(0.6))
+fn reflectance<C: Spectrum>(p: &mut impl Parameters) -> Result<Reflectance<C>, ParameterError> {
+    Reflectance::new(C::splat(p.number(0.6)))
 }
 
-fn alpha<T: Scalar>(p: &mut impl Parameters, typical: f64) -> Result<Alpha<T>, ParameterError> {
+fn alpha<T: Real>(p: &mut impl Parameters, typical: f64) -> Result<Alpha<T>, ParameterError> {
     Alpha::new(p.number(typical))
 }
 
-fn ior<T: Scalar>(p: &mut impl Parameters) -> Result<Ior<T>, ParameterError> {
+fn ior<T: Real>(p: &mut impl Parameters) -> Result<Ior<T>, ParameterError> {
     Ior::new(p.number(1.5))
 }
 
 /// Copper at 600 nm.
-fn metal<T: Scalar>(p: &mut impl Parameters) -> Result<ComplexIor<T>, ParameterError> {
-    ComplexIor::new(p.number(0.24), p.number(3.34))
+fn metal<C: Spectrum>(p: &mut impl Parameters) -> Result<ComplexIor<C>, ParameterError> {
+    ComplexIor::new(C::splat(p.number(0.24)), C::splat(p.number(3.34)))
 }
 
 const EXACT: Distribution = Distribution::Beckmann { lambda: BeckmannLambda::Exact };
@@ -124,11 +126,11 @@ fn masking(p: &mut impl Parameters) -> Masking {
     p.choice([Masking::HeightCorrelated, Masking::Separable])
 }
 
-fn facets<T: Scalar>(p: &mut impl Parameters) -> Result<Microfacets<T>, ParameterError> {
+fn facets<T: Real>(p: &mut impl Parameters) -> Result<Microfacets<T>, ParameterError> {
     Ok(Microfacets::new(distribution(p), alpha(p, 0.3)?, alpha(p, 0.2)?, masking(p)))
 }
 
-fn beckmann_facets<T: Scalar>(p: &mut impl Parameters) -> Result<Microfacets<T>, ParameterError> {
+fn beckmann_facets<T: Real>(p: &mut impl Parameters) -> Result<Microfacets<T>, ParameterError> {
     let distribution = p.choice([EXACT, WALTER]);
     Ok(Microfacets::new(distribution, alpha(p, 0.3)?, alpha(p, 0.2)?, masking(p)))
 }
