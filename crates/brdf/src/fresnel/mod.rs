@@ -12,6 +12,7 @@ mod schlick;
 
 pub use average::{dielectric_average, dielectric_average_fit, schlick_average};
 pub use conductor::conductor;
+pub(crate) use conductor::conductor_of_valid;
 pub use dielectric::{dielectric, dielectric_polarized, dielectric_transmittance};
 pub(crate) use refraction::{Refraction, refract_at};
 pub use refraction::{refract, refract_about};
