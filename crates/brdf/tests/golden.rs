@@ -212,7 +212,9 @@ fn check<T: Real + Spectrum<Real = T>>(share: f64) {
             continue;
         }
         let file = path.file_stem().unwrap().to_str().unwrap();
-        for line in fs::read_to_string(&path).unwrap().lines() {
+        // An interpreter takes every sixteenth row.
+        let step = if cfg!(miri) { 16 } else { 1 };
+        for line in fs::read_to_string(&path).unwrap().lines().step_by(step) {
             let row: Value = serde_json::from_str(line).unwrap();
             let answer = Row(&row).answer::<T>(file);
             rows += 1;
@@ -230,7 +232,7 @@ fn check<T: Real + Spectrum<Real = T>>(share: f64) {
             }
         }
     }
-    assert!(rows > 4000, "only {rows} rows were found");
+    assert!(rows > if cfg!(miri) { 250 } else { 4000 }, "only {rows} rows were found");
     assert!(misses.is_empty(), "of {rows} rows these miss their bound:\n{}", misses.join("\n"));
 }
 

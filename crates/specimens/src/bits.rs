@@ -1,6 +1,6 @@
 //! Hashes of results: the same on every target with the `libm` backend.
 //!
-//! A hash runs over the results of consecutive [`Inputs`] and is reported after [`SHORT`] and after
+//! A hash runs over the results of consecutive [`Inputs`] and is reported after [`BRIEF`], [`SHORT`] and
 //! [`LONG`] of them, so that a slow target compares itself with the beginning of what a fast one did.
 
 use core::fmt;
@@ -12,7 +12,9 @@ use etendue_math::{Real, Vec3, Vector3, mix_u64};
 use crate::functions::functions;
 use crate::{Each, Inputs, Scalar, Specimen, Typical, Visitor, for_each};
 
-/// How many inputs a slow target tries.
+/// How many inputs an interpreter tries.
+pub const BRIEF: u64 = 64;
+/// How many a slow target does.
 pub const SHORT: u64 = 1 << 12;
 /// How many a fast one does.
 pub const LONG: u64 = 500_000;
@@ -77,7 +79,7 @@ pub fn all<T: Scalar>(inputs: u64, report: &mut impl FnMut(Hash)) {
     for_each(&mut Models { inputs, report, scalar: PhantomData::<T> });
 }
 
-/// Runs one function, reporting at [`SHORT`] and [`LONG`].
+/// Runs one function, reporting where the module says.
 fn run<T: Scalar>(
     name: &'static str,
     inputs: u64,
@@ -88,7 +90,7 @@ fn run<T: Scalar>(
     for index in 0..inputs {
         function(&Inputs::new(index), &mut results);
         let count = index + 1;
-        if count == SHORT || count == LONG {
+        if [BRIEF, SHORT, LONG].contains(&count) {
             report(Hash { name, scalar: T::NAME, count, hash: results.0 });
         }
     }
@@ -133,8 +135,8 @@ mod tests {
     #[test]
     fn every_name_is_reported_and_all_hashes_differ() {
         let mut seen = std::collections::BTreeMap::new();
-        all::<f32>(SHORT, &mut |hash| {
-            assert_eq!(hash.count, SHORT);
+        all::<f32>(BRIEF, &mut |hash| {
+            assert_eq!(hash.count, BRIEF);
             assert!(seen.insert(hash.hash, hash.name).is_none(), "{hash}");
         });
         assert_eq!(seen.len(), functions::<f32>().len() + crate::models::NAMES.len());
