@@ -40,8 +40,10 @@ fn main() {
     println!("cargo:rustc-link-search={}", out.display());
     println!("cargo:rustc-link-arg-bins=-Tlink.x");
     fs::write(out.join("rows.rs"), rows()).unwrap();
-    println!("cargo:rerun-if-env-changed=MODEL");
-    println!("cargo:rustc-env=MODEL={}", env::var("MODEL").unwrap_or_default());
+    for name in ["MODEL", "CALLS"] {
+        println!("cargo:rerun-if-env-changed={name}");
+        println!("cargo:rustc-env={name}={}", env::var(name).unwrap_or_default());
+    }
 }
 
 /// The rows as Rust source.

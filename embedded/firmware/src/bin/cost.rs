@@ -1,6 +1,7 @@
 //! Prints how many instructions the model `MODEL` takes per call, and contains no other one.
 //!
-//! Without a model it is the empty program that sizes are compared with. Under `qemu -icount shift=10` an
+//! Without a model it is the program that sizes are compared with: it calls one that scatters nothing.
+//! With `CALLS=eval` it only evaluates. Under `qemu -icount shift=10` an
 //! instruction lasts 1024 ns and SysTick advances with the board's clock, which makes ticks a count of
 //! instructions: not cycles, but the same in every run.
 #![no_std]
@@ -12,8 +13,9 @@ use cortex_m::peripheral::syst::SystClkSource;
 use cortex_m::peripheral::{Peripherals, SYST};
 use cortex_m_rt::entry;
 use cortex_m_semihosting::hprintln;
-use etendue_brdf::Bsdf;
+use etendue_brdf::{Bsdf, Lobes, Sample};
 use etendue_firmware::exit;
+use etendue_math::glam::Vec3;
 use etendue_specimens::{Each, Inputs, Specimen, Typical, Visitor, for_each};
 
 /// How many calls are averaged.
@@ -23,6 +25,9 @@ const CALLS: usize = 32;
 fn main() -> ! {
     let timer = Peripherals::take().map(|p| Timer::new(p.SYST));
     if let Some(timer) = &timer {
+        if const { env!("MODEL").is_empty() } {
+            Calls { timer }.visit(&Nothing);
+        }
         for_each(&mut Chosen { timer });
     }
     exit(timer.is_some())
@@ -78,6 +83,21 @@ impl Each for Chosen<'_> {
     }
 }
 
+/// What is there when no model is.
+struct Nothing;
+
+impl Bsdf for Nothing {
+    type Color = f32;
+
+    fn lobes(&self) -> Lobes {
+        Lobes::default()
+    }
+
+    fn sample(&self, _: Vec3, _: f32, _: [f32; 2]) -> Option<Sample<f32>> {
+        None
+    }
+}
+
 struct Calls<'a> {
     timer: &'a Timer,
 }
@@ -91,6 +111,9 @@ impl Visitor<f32> for Calls<'_> {
         for i in 0..CALLS {
             let Inputs { wo, wi, u, .. } = black_box(Inputs::<f32>::above(i as u64));
             evaluation += u64::from(self.timer.ticks(|| model.eval_pdf(wo, wi)));
+            if const { same(env!("CALLS"), "eval") } {
+                continue;
+            }
             sampling += u64::from(self.timer.ticks(|| model.sample(wo, u[2], [u[0], u[1]])));
         }
         let mean = |ticks| self.timer.instructions(ticks) / CALLS as u64;
