@@ -19,7 +19,12 @@
 //! | type | what | sampling |
 //! | --- | --- | --- |
 //! | [`Lambert`] | ideal diffuse | cosine |
-//! | [`OrenNayar`], [`OrenNayarQualitative`] | rough diffuse (V-cavities) | cosine |
+//! | [`OrenNayar`], [`OrenNayarQualitative`], [`OrenNayarFujii`] | rough diffuse (V-cavities) | cosine |
+//! | [`Eon`] | rough diffuse, all orders of scattering | cosine, or clipped transformed cosine |
+//! | [`Burley`] | Disney diffuse | cosine |
+//! | [`DiffuseTransmitter`] | leaf, paper | cosine on either side |
+//! | [`Phong`] | diffuse and a cosine power about the mirror direction | lobe and cosine |
+//! | [`AshikhminShirley`], [its specular](AshikhminShirleySpecular) and [diffuse part](AshikhminShirleyDiffuse) | anisotropic Phong over a diffuse base | half vectors, cosine |
 //! | [`SmoothConductor`], [`RoughConductor`], [`Conductor`] | metal; the last chooses by roughness | mirror; visible normals |
 //! | [`SmoothDielectric`], [`RoughDielectric`], [`Dielectric`] | glass; the last chooses by roughness and index | Fresnel; visible normals |
 //! | [`ThinDielectric`] | pane | Fresnel of the slab |
@@ -27,8 +32,10 @@
 //! | [`Null`] | nothing: straight on | – |
 //! | [`Mask`], [`TwoSided`] | adapters | that of the inner model |
 //!
+//! [`StochasticLayers`] is no model but a reference: any interface over any base, followed bounce by bounce.
+//!
 //! [`registry::MODELS`] is the same table with domains, laws and sources, as data. Below the models lie
-//! [`fresnel`] and [`microfacet`], usable alone.
+//! [`fresnel`], [`microfacet`], [`fon`], [`PhongHalfVectors`] and [`ClippedCosine`], usable alone.
 //!
 //! # Examples
 //! ```
@@ -79,6 +86,7 @@ mod laws;
 mod layered;
 pub mod microfacet;
 mod param;
+mod phong;
 pub mod quadrature;
 pub mod registry;
 mod rough;
@@ -86,13 +94,23 @@ mod smooth;
 
 pub use adapter::{Mask, TwoSided};
 pub use bsdf::{Bsdf, BsdfReal, BsdfVec, Density, Lobes, Sample};
-pub use diffuse::{Lambert, OrenNayar, OrenNayarQualitative};
+pub use diffuse::{
+    Burley, ClippedCosine, DiffuseTransmitter, Eon, EonAlbedo, EonSampling, Lambert, OrenNayar,
+    OrenNayarFujii, OrenNayarQualitative, fon,
+};
 pub use layered::{
     InternalReflectance, InternalScattering, Plastic, PlasticInterface, RoughPlastic,
-    TransmittanceTable,
+    StochasticLayers, TransmittanceTable,
 };
 pub use microfacet::{BeckmannLambda, Distribution, Masking, Microfacets};
-pub use param::{Alpha, ComplexIor, Ior, Opacity, ParameterError, Reflectance, Sigma};
+pub use param::{
+    Alpha, ComplexIor, Exponent, Ior, Opacity, OpticalDepth, ParameterError, Reflectance,
+    Roughness, Sigma,
+};
+pub use phong::{
+    AshikhminShirley, AshikhminShirleyDiffuse, AshikhminShirleySampling, AshikhminShirleySpecular,
+    Phong, PhongHalfVectors,
+};
 pub use rough::{Conductor, Dielectric, RoughConductor, RoughDielectric};
 pub use smooth::{Null, SmoothConductor, SmoothDielectric, ThinDielectric};
 

@@ -1,6 +1,6 @@
 //! The list of all models: what they take, promise and rest on.
 
-use crate::{Lobes, adapter, diffuse, layered, rough, smooth};
+use crate::{Lobes, adapter, diffuse, layered, phong, rough, smooth};
 
 /// Whether exchanging the two directions changes a model's value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -93,6 +93,12 @@ pub(crate) mod parameter {
         named("distribution", "GGX, Beckmann (exact or Walter's fit)");
     pub(crate) const MASKING: ParameterInfo = named("masking", "height-correlated, separable");
     pub(crate) const SCATTERING: ParameterInfo = named("scattering", "linear, non-linear");
+    pub(crate) const ROUGHNESS: ParameterInfo = named("roughness", "in [0, 1]");
+    pub(crate) const NU: ParameterInfo = named("nu", "in [0, 1e12]");
+    pub(crate) const NV: ParameterInfo = named("nv", "in [0, 1e12]");
+    pub(crate) const RS: ParameterInfo = named("rs", "each channel in [0, 1]");
+    pub(crate) const RD: ParameterInfo = named("rd", "each channel in [0, 1]");
+    pub(crate) const SAMPLING: ParameterInfo = named("sampling", "see the type");
     pub(crate) const INTERNAL: ParameterInfo = named("internal reflectance", "exact, Mitsuba");
 }
 
@@ -101,13 +107,22 @@ pub(crate) mod parameter {
 ///
 /// A test of `etendue-audit` compares it with the sources, so that a new model cannot be forgotten.
 pub const MODELS: &[ModelInfo] = &[
+    phong::ashikhmin_shirley::INFO,
+    phong::ashikhmin_shirley_diffuse::INFO,
+    phong::ashikhmin_shirley_specular::INFO,
+    diffuse::burley::INFO,
     rough::conductor::INFO,
     rough::dielectric::INFO,
+    diffuse::diffuse_transmitter::INFO,
+    diffuse::eon::INFO,
+    diffuse::eon::INFO_APPROXIMATE,
     diffuse::lambert::INFO,
     adapter::mask::INFO,
     smooth::null::INFO,
     diffuse::oren_nayar::INFO,
+    diffuse::oren_nayar_fujii::INFO,
     diffuse::oren_nayar_qualitative::INFO,
+    phong::modified_phong::INFO,
     layered::plastic::INFO,
     rough::rough_conductor::INFO,
     rough::rough_dielectric::INFO,

@@ -8,10 +8,13 @@ use std::path::Path;
 
 use etendue_brdf::fresnel;
 use etendue_brdf::{
-    Alpha, BeckmannLambda, Bsdf, ComplexIor, Distribution, Ior, Lambert, Masking, Microfacets,
-    OrenNayar, OrenNayarQualitative, Reflectance, RoughConductor, RoughDielectric, Sigma,
+    Alpha, AshikhminShirley, AshikhminShirleySampling, BeckmannLambda, Bsdf, Burley, ComplexIor,
+    DiffuseTransmitter, Distribution, Eon, EonAlbedo, Exponent, Ior, Lambert, Masking, Microfacets,
+    OrenNayar, OrenNayarFujii, OrenNayarQualitative, Phong, PhongHalfVectors, Reflectance,
+    RoughConductor, RoughDielectric, Roughness, Sigma,
 };
 use etendue_math::{Real, Spectrum, Vec3, Vector3};
+use etendue_sampling::warp::cosine_hemisphere;
 use serde_json::Value;
 
 use bound::{HARD, LEAST, TYPICAL, ulp32};
@@ -24,7 +27,13 @@ enum Answer {
     Value(f64),
     Bsdf { f: f64, pdf: f64 },
     Direction([f64; 3]),
+    Sample { direction: [f64; 3], pdf: f64 },
     TotalReflection,
+}
+
+/// A vector in `f64`, exact.
+fn widen<V: Vector3>(w: V) -> [f64; 3] {
+    [w.x(), w.y(), w.z()].map(Real::to_f64)
 }
 
 /// An input: a number, or one of the strings that stand for what JSON lacks.
@@ -58,8 +67,15 @@ impl Row<'_> {
     }
 
     /// The unit vector along the given coordinates, whatever their scale; `None` if there is none.
+    ///
+    /// Coordinates that are those of a unit vector but for their rounding stay as they are: rounding them
+    /// once more would move the half vector of nearly opposite directions.
     fn direction<T: Real>(&self, name: &str) -> Option<Vec3<T>> {
         let w = self.coordinates::<T>(name)?;
+        // A rounding of each coordinate moves the squared length by up to √3 ε.
+        if T::excess_of_squares(w.x(), w.y(), w.z()).abs() < T::TWO * T::EPSILON {
+            return Some(w);
+        }
         (w / w.x().abs().max(w.y().abs()).max(w.z().abs())).try_normalize()
     }
 
@@ -73,6 +89,12 @@ impl Row<'_> {
         Some(Microfacets::new(distribution, width("alpha_x")?, width("alpha_y")?, masking))
     }
 
+    /// Uniforms in the domain of a warp.
+    fn uniforms<T: Real>(&self) -> Option<[T; 2]> {
+        let u = [number::<T>(&self.0["xi"][0])?, number::<T>(&self.0["xi"][1])?];
+        u.iter().all(|&u| u >= T::ZERO && u < T::ONE).then_some(u)
+    }
+
     fn bsdf<B: Bsdf>(&self, model: &B) -> Option<Answer> {
         let wi = self.direction::<<B::Color as Spectrum>::Real>("wi")?;
         let wo = self.direction::<<B::Color as Spectrum>::Real>("wo")?;
@@ -84,6 +106,9 @@ impl Row<'_> {
     fn answer<T: Real + Spectrum<Real = T>>(&self, file: &str) -> Option<Answer> {
         let value = |x: T| Some(Answer::Value(x.to_f64()));
         let albedo = || Reflectance::new(self.parameter::<T>("albedo")?).ok();
+        let reflectance = |name| Reflectance::new(self.parameter::<T>(name)?).ok();
+        let roughness = || Roughness::new(self.parameter::<T>("roughness")?).ok();
+        let exponent = |name| Exponent::new(self.parameter::<T>(name)?).ok();
         let sigma = || Sigma::new(self.parameter::<T>("sigma")?).ok();
         let eta = || Ior::new(self.parameter::<T>("eta")?).ok();
         if let Some((function, distribution)) = file
@@ -102,6 +127,36 @@ impl Row<'_> {
             "lambert" => self.bsdf(&Lambert::new(albedo()?)),
             "oren-nayar" => self.bsdf(&OrenNayar::new(albedo()?, sigma()?)),
             "oren-nayar-qualitative" => self.bsdf(&OrenNayarQualitative::new(albedo()?, sigma()?)),
+            "oren-nayar-fujii" => self.bsdf(&OrenNayarFujii::new(albedo()?, roughness()?)),
+            "eon" => self.bsdf(&Eon::new(albedo()?, roughness()?)),
+            "eon-approx" => {
+                let model = Eon::new(albedo()?, roughness()?);
+                self.bsdf(&model.with_albedo(EonAlbedo::Approximate))
+            }
+            "burley" => self.bsdf(&Burley::new(reflectance("base_color")?, roughness()?)),
+            "diffuse-transmitter" => {
+                let [r, t] = ["reflectance", "transmittance"].map(reflectance);
+                self.bsdf(&DiffuseTransmitter::new(r?, t?).ok()?)
+            }
+            "phong" => {
+                let [kd, ks] = ["kd", "ks"].map(reflectance);
+                self.bsdf(&Phong::new(kd?, ks?, exponent("exponent")?).ok()?)
+            }
+            "ashikhmin-shirley" => {
+                let [rs, rd] = ["rs", "rd"].map(reflectance);
+                let model = AshikhminShirley::new(exponent("nu")?, exponent("nv")?, rs?, rd?);
+                self.bsdf(&model.with_sampling(AshikhminShirleySampling::Specular))
+            }
+            "sample-ashikhmin-shirley-half" => {
+                let lobe = PhongHalfVectors::new(exponent("nu")?, exponent("nv")?);
+                let (h, pdf) = lobe.sample(self.uniforms::<T>()?);
+                Some(Answer::Sample { direction: widen(h), pdf: pdf.to_f64() })
+            }
+            "sample-cosine-hemisphere" => {
+                let w = cosine_hemisphere::from_square_polar(self.uniforms::<T>()?);
+                let pdf = cosine_hemisphere::pdf::<T>(w).to_f64();
+                Some(Answer::Sample { direction: widen(w), pdf })
+            }
             "fresnel-dielectric" => value(fresnel::dielectric(self.cosine()?, eta()?.value())),
             "fresnel-conductor" => {
                 let ior =
@@ -116,9 +171,10 @@ impl Row<'_> {
             "refract" => {
                 // Normalising in T would cost the digits that the critical angle needs.
                 let (w, eta) = (self.coordinates::<T>("wi")?, eta()?);
-                Some(fresnel::refract(w, eta.value()).map_or(Answer::TotalReflection, |t| {
-                    Answer::Direction([t.x(), t.y(), t.z()].map(Real::to_f64))
-                }))
+                Some(
+                    fresnel::refract(w, eta.value())
+                        .map_or(Answer::TotalReflection, |t| Answer::Direction(widen(t))),
+                )
             }
             "rough-conductor" => {
                 let ior =
@@ -169,14 +225,20 @@ fn row_error(row: &Value, answer: Option<&Answer>) -> f64 {
         }
         Some(Answer::TotalReflection) if row["tir"].as_bool() == Some(true) => 0.0,
         None | Some(Answer::TotalReflection) => f64::INFINITY,
-        Some(Answer::Direction(got)) => {
-            let Some(exact) = row["value"].as_array() else { return f64::INFINITY };
-            let squared: f64 =
-                got.iter().zip(exact).map(|(g, e)| Real::sqr(g - e.as_f64().unwrap())).sum();
-            let condition = row["cond"][1].as_f64().unwrap_or(0.0);
-            squared.sqrt() / ulp32(1.0) / (1.0 + condition)
+        Some(&Answer::Direction(got)) => direction_error(row, got),
+        Some(&Answer::Sample { direction, pdf }) => {
+            let exact = row["pdf"].as_f64().unwrap();
+            direction_error(row, direction).max(scaled_error(pdf, exact, &row["cond"]))
         }
     }
+}
+
+/// The condition-scaled distance from the exact direction, in ulps of 1.
+fn direction_error(row: &Value, got: [f64; 3]) -> f64 {
+    let Some(exact) = row["value"].as_array() else { return f64::INFINITY };
+    let squared: f64 = got.iter().zip(exact).map(|(g, e)| Real::sqr(g - e.as_f64().unwrap())).sum();
+    let condition = row["cond"][1].as_f64().unwrap_or(0.0);
+    squared.sqrt() / ulp32(1.0) / (1.0 + condition)
 }
 
 /// Whether an answer is one a caller outside the domain may get.
@@ -184,6 +246,10 @@ fn is_acceptable(row: &Value, answer: Option<&Answer>) -> bool {
     let (got, pdf) = match answer {
         // Directions and total reflection of invalid input are vectors or nothing: never wrong here.
         None | Some(Answer::Direction(_) | Answer::TotalReflection) => return true,
+        Some(&Answer::Sample { direction, pdf }) => {
+            let unit = direction.iter().map(|c| c * c).sum::<f64>();
+            return (unit - 1.0).abs() < 1e-6 && pdf.is_finite() && pdf >= 0.0;
+        }
         Some(&Answer::Value(x)) => (x, 0.0),
         Some(&Answer::Bsdf { f, pdf }) => (f, pdf),
     };
@@ -232,7 +298,7 @@ fn check<T: Real + Spectrum<Real = T>>(share: f64) {
             }
         }
     }
-    assert!(rows > if cfg!(miri) { 250 } else { 4000 }, "only {rows} rows were found");
+    assert!(rows > if cfg!(miri) { 380 } else { 6000 }, "only {rows} rows were found");
     assert!(misses.is_empty(), "of {rows} rows these miss their bound:\n{}", misses.join("\n"));
 }
 

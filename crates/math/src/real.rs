@@ -163,6 +163,9 @@ pub trait Real:
     /// `a·b − c·d` without catastrophic cancellation: correct to 1.5 ulp where the products do not
     /// over- or underflow (Jeannerod et al. 2013 for `f64`; through `f64` for `f32`).
     fn difference_of_products(a: Self, b: Self, c: Self, d: Self) -> Self;
+    /// `x² + y² + z² − 1`, how far a vector that is nearly of unit length is from it: absolute error of
+    /// ε² instead of the ε that the squares are rounded by.
+    fn excess_of_squares(x: Self, y: Self, z: Self) -> Self;
     /// Neither NaN nor infinite.
     fn is_finite(self) -> bool;
     /// Not a number.
@@ -294,6 +297,10 @@ macro_rules! real {
                 difference_of_products::$float(a, b, c, d)
             }
             #[inline(always)]
+            fn excess_of_squares(x: Self, y: Self, z: Self) -> Self {
+                excess_of_squares::$float(x, y, z)
+            }
+            #[inline(always)]
             fn is_finite(self) -> bool {
                 $float::is_finite(self)
             }
@@ -334,6 +341,33 @@ mod difference_of_products {
     }
 }
 
+mod excess_of_squares {
+    use super::backend;
+
+    /// Squares of `f32` are exact in `f64`.
+    #[inline(always)]
+    pub(super) fn f32(x: f32, y: f32, z: f32) -> f32 {
+        let square = |a: f32| f64::from(a) * f64::from(a);
+        (square(x) + square(y) + square(z) - 1.0) as f32
+    }
+
+    /// The squares and what their rounding has lost, found by fma; the same for their sums (Knuth's
+    /// two-sum).
+    #[inline(always)]
+    pub(super) fn f64(x: f64, y: f64, z: f64) -> f64 {
+        let (mut sum, mut lost) = (-1.0, 0.0);
+        for a in [x, y, z] {
+            let square = a * a;
+            lost += backend::exact::f64::mul_add(a, a, -square);
+            let total = sum + square;
+            let part = total - sum;
+            lost += (sum - (total - part)) + (square - part);
+            sum = total;
+        }
+        sum + lost
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -361,6 +395,17 @@ mod tests {
             assert_eq!(Real::min(a, b).to_bits(), b.to_bits());
             assert_eq!(Real::max(a, b).to_bits(), b.to_bits());
         }
+    }
+
+    #[test]
+    fn the_excess_of_a_nearly_unit_vector_keeps_its_digits() {
+        // (1 + ε)² + ε² − 1 = 2ε + 2ε²; plain squares lose the ε² and half an ε.
+        let e = f64::EPSILON;
+        assert_eq!(f64::excess_of_squares(1.0 + e, e, 0.0), 2.0 * e + 2.0 * e * e);
+        let e = f32::EPSILON;
+        assert_eq!(f32::excess_of_squares(1.0 + e, e, 0.0), 2.0 * e + 2.0 * e * e);
+        // 0.6² + 0.8² of the nearest numbers, from their exact decimal expansions.
+        assert!((f64::excess_of_squares(0.6, 0.8, 0.0) - 4.440892098500626e-17).abs() < 1e-24);
     }
 
     #[test]

@@ -6,6 +6,7 @@ mod adapter;
 mod diffuse;
 mod layered;
 mod parameters;
+mod phong;
 mod rough;
 mod smooth;
 
@@ -33,6 +34,23 @@ pub fn models() -> Vec<ModelCases> {
             "oren-nayar-qualitative",
             diffuse::oren_nayar_qualitative,
             diffuse::oren_nayar_qualitative,
+        ),
+        of("oren-nayar-fujii", diffuse::oren_nayar_fujii, diffuse::oren_nayar_fujii),
+        of("eon", diffuse::eon, diffuse::eon),
+        of("eon-approx", diffuse::eon_approx, diffuse::eon_approx),
+        of("burley", diffuse::burley, diffuse::burley),
+        of("diffuse-transmitter", diffuse::diffuse_transmitter, diffuse::diffuse_transmitter),
+        of("phong", phong::phong, phong::phong),
+        of("ashikhmin-shirley", phong::ashikhmin_shirley, phong::ashikhmin_shirley),
+        of(
+            "ashikhmin-shirley-specular",
+            phong::ashikhmin_shirley_specular,
+            phong::ashikhmin_shirley_specular,
+        ),
+        of(
+            "ashikhmin-shirley-diffuse",
+            phong::ashikhmin_shirley_diffuse,
+            phong::ashikhmin_shirley_diffuse,
         ),
         of("smooth-conductor", smooth::smooth_conductor, smooth::smooth_conductor),
         of("rough-conductor", rough::rough_conductor, rough::rough_conductor),

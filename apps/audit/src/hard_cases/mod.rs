@@ -5,9 +5,11 @@
 //! forms fail, compares `f32` with a reference in `f64`, and proves that it can fail: the naive
 //! form, kept here as the counter-example, must exceed the bound over the same inputs.
 
+mod ashikhmin_shirley;
 mod conductor;
 mod cone;
 mod cosine_hemisphere;
+mod eon_albedo;
 mod fresnel;
 mod half_vector;
 mod mis_weights;
@@ -40,7 +42,11 @@ pub const HARD_CASES: &[HardCase] = &[
     ndf::BECKMANN,
     half_vector::CASE,
     visible_normals::CASE,
+    ashikhmin_shirley::EVAL,
+    ashikhmin_shirley::POLAR,
+    ashikhmin_shirley::AZIMUTH,
     oren_nayar::CASE,
+    eon_albedo::CASE,
     thin_slab::CASE,
     total_reflection::CASE,
     uniforms::CASE,

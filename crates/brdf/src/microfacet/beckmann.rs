@@ -44,9 +44,14 @@ fn stretched<T: Real>(w: Vec3<T>, alpha_x: T, alpha_y: T) -> (T, T) {
 ///
 /// ```text
 /// Λ(w) = ½ (exp(−a²) / (a √π) − erfc(a)),  a = z / √((αx x)² + (αy y)²)
+///      = exp(−a²) K / (2 √π a (a + K)),  K = ½/(a + 1/(a + 1½/(a + 2/(a + …))))
 /// ```
 ///
 /// `w` above the surface.
+///
+/// # Precision
+/// A few ulp times the condition. From a = 2 on, where the difference cancels, Laplace's continued
+/// fraction of erfc takes its place, in which the common term is gone.
 ///
 /// # Source
 /// B. Walter et al., EGSR 2007, eq. 26 as Λ; E. Heitz, JCGT 3(2), 2014, eq. 66.
@@ -54,12 +59,24 @@ fn stretched<T: Real>(w: Vec3<T>, alpha_x: T, alpha_y: T) -> (T, T) {
 pub fn lambda<T: Real>(w: Vec3<T>, alpha_x: T, alpha_y: T) -> T {
     let (z, s) = stretched(w, alpha_x, alpha_y);
     let a = z / s;
-    if a < T::INFINITY {
-        // The two terms cross where both underflow; Λ is never negative.
-        (T::HALF * ((-a * a).exp() * T::lit(FRAC_1_SQRT_PI) / a - a.erfc())).max(T::ZERO)
-    } else {
-        T::ZERO
+    if !(a < T::INFINITY) {
+        return T::ZERO;
     }
+    let gauss = (-a * a).exp() * T::lit(FRAC_1_SQRT_PI);
+    if a < T::TWO {
+        T::HALF * (gauss / a - a.erfc())
+    } else {
+        let k = laplace_fraction(a);
+        T::HALF * gauss * (k / (a * (a + k)))
+    }
+}
+
+/// `K(a) = ½/(a + 1/(a + 1½/(a + …)))`, by which `erfc(a) = exp(−a²) / (√π (a + K))`, to the last
+/// digits for `a ≥ 2`.
+fn laplace_fraction<T: Real>(a: T) -> T {
+    // The error falls by about exp(−4 a √(2n)) with n terms.
+    let terms = if T::SIGNIFICAND_BITS > 24 { 40 } else { 10 };
+    (1..=terms).rev().fold(T::ZERO, |k, n| T::lit(0.5 * f64::from(n)) / (a + k))
 }
 
 /// Projected area σ of the visible microsurface, exact; see [`ggx::projected_area`](super::ggx::projected_area).
