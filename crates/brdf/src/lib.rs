@@ -29,13 +29,17 @@
 //! | [`SmoothDielectric`], [`RoughDielectric`], [`Dielectric`] | glass; the last chooses by roughness and index | Fresnel; visible normals |
 //! | [`ThinDielectric`] | pane | Fresnel of the slab |
 //! | [`Plastic`], [`RoughPlastic`] | diffuse base under a dielectric | mirror or visible normals, and cosine |
+//! | [`AbsorbingSlab`] | pane of tinted glass | reflected and transmitted shares |
+//! | [`LayeredLinear`], [`LayeredFresnel`] | mirror and matte term, uncoupled (the latter not reciprocal) | mirror and cosine |
+//! | [`Coupled`], [`RoughCoupled`] | matte term coupled to a mirror or a rough lobe | mirror or visible normals, and cosine |
 //! | [`Null`] | nothing: straight on | – |
-//! | [`Mask`], [`TwoSided`] | adapters | that of the inner model |
+//! | [`Blend`], [`Mask`], [`TwoSided`] | adapters | that of the inner models |
 //!
 //! [`StochasticLayers`] is no model but a reference: any interface over any base, followed bounce by bounce.
 //!
 //! [`registry::MODELS`] is the same table with domains, laws and sources, as data. Below the models lie
-//! [`fresnel`], [`microfacet`], [`fon`], [`PhongHalfVectors`] and [`ClippedCosine`], usable alone.
+//! [`fresnel`], [`microfacet`], [`fon`], [`PhongHalfVectors`] and [`ClippedCosine`], usable alone. Beside them,
+//! [`Absorption`] is what happens inside a medium and [`radiometry`] what lights do to a surface.
 //!
 //! # Examples
 //! ```
@@ -76,6 +80,7 @@ extern crate std;
 #[cfg(test)]
 extern crate alloc;
 
+mod absorption;
 mod adapter;
 mod bsdf;
 mod diffuse;
@@ -88,18 +93,21 @@ pub mod microfacet;
 mod param;
 mod phong;
 pub mod quadrature;
+pub mod radiometry;
 pub mod registry;
 mod rough;
 mod smooth;
 
-pub use adapter::{Mask, TwoSided};
+pub use absorption::Absorption;
+pub use adapter::{Blend, Mask, TwoSided};
 pub use bsdf::{Bsdf, BsdfReal, BsdfVec, Density, Lobes, Sample};
 pub use diffuse::{
     Burley, ClippedCosine, DiffuseTransmitter, Eon, EonAlbedo, EonSampling, Lambert, OrenNayar,
     OrenNayarFujii, OrenNayarQualitative, fon,
 };
 pub use layered::{
-    InternalReflectance, InternalScattering, Plastic, PlasticInterface, RoughPlastic,
+    Coupled, CoupledInterface, InternalReflectance, InternalScattering, LayeredFresnel,
+    LayeredLinear, MirrorOverMatte, Plastic, PlasticInterface, RoughCoupled, RoughPlastic,
     StochasticLayers, TransmittanceTable,
 };
 pub use microfacet::{BeckmannLambda, Distribution, Masking, Microfacets};
@@ -112,7 +120,7 @@ pub use phong::{
     Phong, PhongHalfVectors,
 };
 pub use rough::{Conductor, Dielectric, RoughConductor, RoughDielectric};
-pub use smooth::{Null, SmoothConductor, SmoothDielectric, ThinDielectric};
+pub use smooth::{AbsorbingSlab, Null, SmoothConductor, SmoothDielectric, ThinDielectric};
 
 /// Runs the README's example.
 #[cfg(doctest)]

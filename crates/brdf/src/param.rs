@@ -353,6 +353,13 @@ impl<C: Spectrum> OpticalDepth<C> {
     pub fn transmittance(self, cos: C::Real) -> C {
         self.0.map(|tau| if tau > C::Real::ZERO { (-tau / cos.abs()).exp() } else { C::Real::ONE })
     }
+
+    /// `1 − exp(−τ / |cos θ|)`, without the cancellation in thin layers.
+    #[inline]
+    pub fn absorptance(self, cos: C::Real) -> C {
+        let zero = C::Real::ZERO;
+        self.0.map(|tau| if tau > zero { -(-tau / cos.abs()).exp_m1() } else { zero })
+    }
 }
 
 #[cfg(test)]

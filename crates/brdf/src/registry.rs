@@ -3,12 +3,18 @@
 use crate::{Lobes, adapter, diffuse, layered, phong, rough, smooth};
 
 /// Whether exchanging the two directions changes a model's value.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Reciprocity {
     /// `f(wo, wi) = f(wi, wo)`.
     Reciprocal,
     /// Reflection is reciprocal; refraction up to the squared index, `f/η²` being symmetric.
     UpToSquaredIndex,
+    /// Not symmetric, by the model's own definition.
+    NonReciprocal {
+        /// `|f(a, b) − f(b, a)| / max(f(a, b), f(b, a))` for a the normal and b at cos θ = 0.1, the same for
+        /// all parameters with which f is not 0 for both.
+        residual: f64,
+    },
 }
 
 /// Whether a model can reflect more than it receives.
@@ -107,16 +113,21 @@ pub(crate) mod parameter {
 ///
 /// A test of `etendue-audit` compares it with the sources, so that a new model cannot be forgotten.
 pub const MODELS: &[ModelInfo] = &[
+    smooth::absorbing_slab::INFO,
     phong::ashikhmin_shirley::INFO,
     phong::ashikhmin_shirley_diffuse::INFO,
     phong::ashikhmin_shirley_specular::INFO,
+    adapter::blend::INFO,
     diffuse::burley::INFO,
     rough::conductor::INFO,
+    layered::coupled::INFO,
     rough::dielectric::INFO,
     diffuse::diffuse_transmitter::INFO,
     diffuse::eon::INFO,
     diffuse::eon::INFO_APPROXIMATE,
     diffuse::lambert::INFO,
+    layered::layered_fresnel::INFO,
+    layered::layered_linear::INFO,
     adapter::mask::INFO,
     smooth::null::INFO,
     diffuse::oren_nayar::INFO,
@@ -125,6 +136,7 @@ pub const MODELS: &[ModelInfo] = &[
     phong::modified_phong::INFO,
     layered::plastic::INFO,
     rough::rough_conductor::INFO,
+    layered::rough_coupled::INFO,
     rough::rough_dielectric::INFO,
     layered::rough_plastic::INFO,
     smooth::smooth_conductor::INFO,

@@ -5,16 +5,21 @@
 //! forms fail, compares `f32` with a reference in `f64`, and proves that it can fail: the naive
 //! form, kept here as the counter-example, must exceed the bound over the same inputs.
 
+mod artistic_conductor;
 mod ashikhmin_shirley;
 mod conductor;
 mod cone;
 mod cosine_hemisphere;
+mod coupled;
 mod eon_albedo;
 mod fresnel;
 mod half_vector;
+mod matched_dielectric;
 mod mis_weights;
 mod ndf;
 mod oren_nayar;
+mod smooth_limit;
+mod solid_angle;
 mod thin_slab;
 mod total_reflection;
 mod uniforms;
@@ -38,6 +43,10 @@ pub struct HardCase {
 pub const HARD_CASES: &[HardCase] = &[
     fresnel::CASE,
     conductor::CASE,
+    artistic_conductor::CASE,
+    matched_dielectric::CASE,
+    smooth_limit::CONDUCTOR,
+    smooth_limit::DIELECTRIC,
     ndf::GGX,
     ndf::BECKMANN,
     half_vector::CASE,
@@ -46,6 +55,7 @@ pub const HARD_CASES: &[HardCase] = &[
     ashikhmin_shirley::POLAR,
     ashikhmin_shirley::AZIMUTH,
     oren_nayar::CASE,
+    coupled::CASE,
     eon_albedo::CASE,
     thin_slab::CASE,
     total_reflection::CASE,
@@ -53,6 +63,8 @@ pub const HARD_CASES: &[HardCase] = &[
     cosine_hemisphere::CASE,
     mis_weights::CASE,
     cone::CASE,
+    solid_angle::TRIANGLE,
+    solid_angle::RECTANGLE,
 ];
 
 impl HardCase {

@@ -64,7 +64,8 @@ impl<B: Bsdf> Bsdf for Mask<B> {
                 Density::Delta(p) => (Density::Delta(p * self.opacity), p),
             };
             // The product underflows for an opacity of next to nothing.
-            return (p * self.opacity > BsdfReal::<B>::ZERO).then_some(Sample { density, ..sample });
+            return (p * self.opacity > BsdfReal::<B>::ZERO)
+                .then_some(Sample { density, ..sample });
         }
         exists(wo).then(|| Sample {
             wi: -wo,

@@ -96,9 +96,8 @@ impl<C: Spectrum> Bsdf for RoughConductor<C> {
         if !both_above(wo, wi) {
             return C::Real::ZERO;
         }
-        half_vector(wo, wi).map_or(C::Real::ZERO, |(h, _)| {
-            reflection_pdf(&self.facets, wo, self.facets.ndf(h))
-        })
+        half_vector(wo, wi)
+            .map_or(C::Real::ZERO, |(h, _)| reflection_pdf(&self.facets, wo, self.facets.ndf(h)))
     }
 
     #[inline]
