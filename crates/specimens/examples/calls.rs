@@ -74,8 +74,12 @@ impl<C: Spectrum> Visitor<C> for Calls {
             "nothing" => self.time(|i: &Inputs<C::Real>| _ = black_box((i.wo, i.wi, i.u))),
             "eval" => self.time(|i: &Inputs<C::Real>| _ = black_box(model.eval(i.wo, i.wi))),
             "pdf" => self.time(|i: &Inputs<C::Real>| _ = black_box(model.pdf(i.wo, i.wi))),
-            "eval_pdf" => self.time(|i: &Inputs<C::Real>| _ = black_box(model.eval_pdf(i.wo, i.wi))),
-            "sample" => self.time(|i: &Inputs<C::Real>| _ = black_box(model.sample(i.wo, i.u[2], [i.u[0], i.u[1]]))),
+            "eval_pdf" => {
+                self.time(|i: &Inputs<C::Real>| _ = black_box(model.eval_pdf(i.wo, i.wi)))
+            }
+            "sample" => self.time(|i: &Inputs<C::Real>| {
+                _ = black_box(model.sample(i.wo, i.u[2], [i.u[0], i.u[1]]))
+            }),
             _ => return None,
         })
     }

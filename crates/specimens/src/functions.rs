@@ -43,7 +43,11 @@ pub fn functions<T: Scalar>() -> [Function<T>; 40] {
             out.numbers(warp::disk::to_square(point));
         }),
         ("uniform_sphere", |i, out| {
-            warped::<T>(out, warp::uniform_sphere::from_square(pair(i)), warp::uniform_sphere::to_square);
+            warped::<T>(
+                out,
+                warp::uniform_sphere::from_square(pair(i)),
+                warp::uniform_sphere::to_square,
+            );
         }),
         ("uniform_hemisphere", |i, out| {
             let w = warp::uniform_hemisphere::from_square(pair(i));
@@ -68,7 +72,8 @@ pub fn functions<T: Scalar>() -> [Function<T>; 40] {
         }),
         ("spherical_triangle", |i, out| {
             let third = Vec3::<T>::new(i.u[0], i.u[1], i.u[2]);
-            let triangle = warp::spherical_triangle::SphericalTriangle::<T>::new([i.wo, i.wi, third]);
+            let triangle =
+                warp::spherical_triangle::SphericalTriangle::<T>::new([i.wo, i.wi, third]);
             if let Some(triangle) = triangle {
                 warped::<T>(out, triangle.from_square(pair(i)), |w| triangle.to_square(w));
             }
@@ -106,7 +111,8 @@ pub fn functions<T: Scalar>() -> [Function<T>; 40] {
         }),
         ("ggx visible normal", |i, out| {
             let wo = upright::<T>(i.wo);
-            let h = microfacet::ggx::sample_visible_normal(wo, width(i.u[2]), width(i.u[2]), pair(i));
+            let h =
+                microfacet::ggx::sample_visible_normal(wo, width(i.u[2]), width(i.u[2]), pair(i));
             out.vector(h.unwrap_or_default());
         }),
         ("beckmann ndf", |i, out| {
