@@ -96,9 +96,11 @@ pub trait Real:
     fn safe_sqrt(self) -> Self {
         self.max(Self::ZERO).sqrt()
     }
-    /// The smaller of the two; the other one if one is NaN.
+    /// The smaller of the two; the other one if one is NaN; `other` if they are equal.
+    ///
+    /// Of two zeros of different sign `core`'s minimum may be either, and differs between processors.
     fn min(self, other: Self) -> Self;
-    /// The larger of the two; the other one if one is NaN.
+    /// The larger of the two; the other one if one is NaN; `other` if they are equal (see [`min`](Self::min)).
     fn max(self, other: Self) -> Self;
     /// `x` limited to `[low, high]`; `low` for NaN, so that nothing invalid passes.
     fn clamp_to(self, low: Self, high: Self) -> Self {
@@ -216,11 +218,11 @@ macro_rules! real {
             }
             #[inline(always)]
             fn min(self, other: Self) -> Self {
-                $float::min(self, other)
+                if self < other || other.is_nan() { self } else { other }
             }
             #[inline(always)]
             fn max(self, other: Self) -> Self {
-                $float::max(self, other)
+                if self > other || other.is_nan() { self } else { other }
             }
             #[inline(always)]
             fn copysign(self, sign: Self) -> Self {
@@ -382,6 +384,17 @@ mod tests {
     fn clamping_replaces_nan_by_the_lower_bound() {
         assert_eq!(f32::NAN.clamp_to(0.0, 1.0), 0.0);
         assert_eq!(2.0_f64.clamp_to(0.0, 1.0), 1.0);
+    }
+
+    #[test]
+    fn extremes_skip_nan_and_of_two_zeros_take_the_argument() {
+        for (nan, x) in [(f32::NAN, 1.0), (1.0, f32::NAN)] {
+            assert_eq!((Real::min(nan, x), Real::max(nan, x)), (1.0, 1.0));
+        }
+        for (a, b) in [(0.0_f64, -0.0), (-0.0, 0.0)] {
+            assert_eq!(Real::min(a, b).to_bits(), b.to_bits());
+            assert_eq!(Real::max(a, b).to_bits(), b.to_bits());
+        }
     }
 
     #[test]
