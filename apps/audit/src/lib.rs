@@ -9,6 +9,8 @@
 //! | [`cases`] | which parameters of which model are audited |
 //! | [`generators`] | directions and uniforms, hostile ones included |
 //! | [`checks`] | one law per file, with its tolerance and the reason for it |
+//! | [`sweep`] | `f32` against `f64` over the hostile domain |
+//! | [`furnace`] | laws of microfacets by themselves |
 //! | [`hard_cases`] | single functions where naive forms break, each with that naive form |
 //! | [`partition`], [`cubature`], [`statistics`] | the numerics under the checks |
 //! | [`run`], [`report`] | everything on all cores, printed and as JSON |
@@ -22,12 +24,15 @@ pub mod budget;
 pub mod cases;
 pub mod checks;
 pub mod cubature;
+pub mod furnace;
 pub mod generators;
 pub mod hard_cases;
 pub mod measure;
 pub mod partition;
+pub mod progress;
 pub mod report;
 pub mod run;
 pub mod scalar;
 pub mod statistics;
 pub mod subject;
+pub mod sweep;

@@ -11,8 +11,9 @@ use std::process::ExitCode;
 
 use clap::Parser;
 use etendue_audit::budget::Budget;
+use etendue_audit::progress::Progress;
 use etendue_audit::report::Totals;
-use etendue_audit::{cases, checks, hard_cases, report, run};
+use etendue_audit::{cases, checks, furnace, hard_cases, report, run};
 
 /// Audits every reflection model: laws, densities, hostile inputs, in f32 and f64.
 #[derive(Parser)]
@@ -59,7 +60,8 @@ fn execute(arguments: &Arguments) -> ExitCode {
         }
     }
     let budget = if arguments.exhaustive { Budget::EXHAUSTIVE } else { Budget::SMOKE };
-    let records = run::run(budget, &arguments.filter);
+    let progress = if arguments.exhaustive { Progress::lines() } else { Progress::Silent };
+    let records = run::run(budget, &arguments.filter, &progress);
     if records.is_empty() {
         eprintln!("etendue-audit: no model or check is called '{}' (see --list)", arguments.filter);
         return ExitCode::from(USAGE);
@@ -102,7 +104,10 @@ fn list(out: &mut impl Write) -> io::Result<()> {
     for check in checks::all::<f64>() {
         writeln!(out, "  {}", check.name)?;
     }
-    writeln!(out, "  {}\n\nhard cases:", checks::PRECISION)?;
+    for check in checks::SWEPT {
+        writeln!(out, "  {check}")?;
+    }
+    writeln!(out, "  {} ({})\n\nhard cases:", furnace::CHECK, furnace::MODEL)?;
     for hard in hard_cases::HARD_CASES {
         writeln!(out, "  {} ({})", hard.name, hard.function)?;
     }

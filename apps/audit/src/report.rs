@@ -207,6 +207,7 @@ mod tests {
                 at: format!("at {parameters}"),
                 evaluations: 10,
             }),
+            naive: None,
         }
     }
 

@@ -8,7 +8,7 @@ use crate::subject::Case;
 
 pub(super) fn lambert<T: Scalar>() -> Vec<Case<T>> {
     let case = |rho| Case::new(format!("albedo {rho}"), Lambert::new(reflectance::<T>(rho)));
-    vec![case(0.0), case(0.5), case(1.0).published(&[(0.01, 1.0), (1.56, 1.0)])]
+    vec![case(0.0), case(0.5), case(1.0).lossless().published(&[(0.01, 1.0), (1.56, 1.0)])]
 }
 
 pub(super) fn oren_nayar<T: Scalar>() -> Vec<Case<T>> {
@@ -28,8 +28,20 @@ pub(super) fn oren_nayar<T: Scalar>() -> Vec<Case<T>> {
             (1.5, 1.032),
             (1.56, 1.046),
         ]),
-        case(1.0, 0.5).published(&[(0.01, 0.896), (0.8, 0.909), (1.3, 0.958), (1.56, 1.020)]),
-        case(1.0, 1.0).published(&[(0.01, 0.775), (0.8, 0.790), (1.3, 0.852), (1.56, 0.929)]),
+        case(1.0, 0.5).published(&[
+            (0.01, 0.896),
+            (0.8, 0.909),
+            (1.3, 0.958),
+            (1.5, 0.999),
+            (1.56, 1.020),
+        ]),
+        case(1.0, 1.0).published(&[
+            (0.01, 0.775),
+            (0.8, 0.790),
+            (1.3, 0.852),
+            (1.5, 0.902),
+            (1.56, 0.929),
+        ]),
     ]
 }
 

@@ -22,9 +22,9 @@ pub(super) fn plastic<T: Scalar>() -> Vec<Case<T>> {
         case(0.0, 1.5, InternalScattering::Linear),
         case(0.5, 1.5, InternalScattering::Linear),
         case(0.5, 1.5, InternalScattering::NonLinear),
-        case(1.0, 1.5, InternalScattering::Linear),
-        case(1.0, 1.000_001, InternalScattering::NonLinear),
-        case(1.0, 4.0, InternalScattering::NonLinear),
+        case(1.0, 1.5, InternalScattering::Linear).lossless(),
+        case(1.0, 1.000_001, InternalScattering::NonLinear).lossless(),
+        case(1.0, 4.0, InternalScattering::NonLinear).lossless(),
     ]
 }
 

@@ -11,6 +11,8 @@ mod smooth;
 
 use etendue_brdf::registry::{MODELS, ModelInfo};
 
+pub use parameters::{Surface, surfaces};
+
 use crate::subject::Case;
 
 /// A model's name in the registry and its cases.

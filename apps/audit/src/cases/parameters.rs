@@ -81,16 +81,41 @@ pub(super) fn facets<T: Scalar>(
     Microfacets::new(distribution, alpha::<T>(x), alpha::<T>(y), masking)
 }
 
+/// A rough surface by itself.
+pub struct Surface<T> {
+    /// Its parameters, as the report prints them.
+    pub name: &'static str,
+    /// The surface.
+    pub facets: Microfacets<T>,
+    /// Its distribution.
+    pub distribution: Distribution,
+    /// Its widths αx and αy.
+    pub widths: [f64; 2],
+    /// How its lobe compares with what can be resolved.
+    pub width: Width,
+}
+
+/// The rough surfaces that models are audited with.
+pub fn surfaces<T: Scalar>() -> Vec<Surface<T>> {
+    SURFACES
+        .iter()
+        .map(|&(name, distribution, widths, masking)| Surface {
+            name,
+            facets: facets::<T>(distribution, widths, masking),
+            distribution,
+            widths: widths.map(|a| shared::<T>(a).to_f64()),
+            width: width::<T>(widths[0]),
+        })
+        .collect()
+}
+
 /// One case per surface, with what `model` makes of it.
 pub(super) fn on_surfaces<T: Scalar, B: Bsdf<Color = T> + Send + Sync + 'static>(
     parameters: &str,
     model: impl Fn(Microfacets<T>) -> B,
 ) -> Vec<Case<T>> {
-    SURFACES
-        .iter()
-        .map(|&(name, distribution, widths, masking)| {
-            let bsdf = model(facets::<T>(distribution, widths, masking));
-            Case::new(format!("{name}{parameters}"), bsdf).of_width(width::<T>(widths[0]))
-        })
+    surfaces::<T>()
+        .into_iter()
+        .map(|s| Case::new(format!("{}{parameters}", s.name), model(s.facets)).of_width(s.width))
         .collect()
 }

@@ -9,6 +9,8 @@ use crate::measure::{Outcome, Worst};
 pub(super) const CASE: HardCase = HardCase {
     name: "extreme densities",
     function: "mis::power",
+    problem: "p²/(p² + q²) is ∞/∞ for large and 0/0 for small densities",
+    remedy: "1/(1 + (q/p)²), ratio first",
     sound: || sweep(mis::power::<f32>),
     naive: || sweep(|p, q| p * p / (p * p + q * q)),
 };

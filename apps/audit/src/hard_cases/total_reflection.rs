@@ -11,6 +11,8 @@ use crate::measure::{Outcome, Worst};
 pub(super) const CASE: HardCase = HardCase {
     name: "critical angle ± ulps",
     function: "fresnel::refract",
+    problem: "reflectance and refraction disagree about whether light passes: samples are lost",
+    remedy: "one radicand, in twice the precision near 0, decides for both",
     sound: || sweep(|w, eta| disagree(w, eta) || nothing_drawn(w, eta)),
     // Fresnel leaves something to transmit, but refraction finds no direction for it.
     naive: || sweep(|w, eta| dielectric(w.z, eta) < 1.0 && !passes_by_sine(w, eta)),

@@ -11,6 +11,8 @@ use crate::measure::{Outcome, Worst};
 pub(super) const CASE: HardCase = HardCase {
     name: "grazing visible normals",
     function: "ggx::sample_visible_normal",
+    problem: "√(1 − z²) of the spherical cap cancels near its poles",
+    remedy: "t = u (1 + Vz), sin² = t (2 − t)",
     sound: || sweep(|wo, a, u| ggx::sample_visible_normal::<f32>(wo, a, a, u)),
     naive: || sweep(|wo, a, u| Some(cap_from_cosine(wo, a, u))),
 };
