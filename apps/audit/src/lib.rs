@@ -13,7 +13,8 @@
 //! | [`furnace`] | laws of microfacets by themselves |
 //! | [`hard_cases`] | single functions where naive forms break, each with that naive form |
 //! | [`partition`], [`cubature`], [`statistics`] | the numerics under the checks |
-//! | [`run`], [`report`] | everything on all cores, printed and as JSON |
+//! | [`run`], [`report`] | everything on all cores, printed, as JSON and as Markdown |
+//! | [`model_table`], [`document`] | what programs write in documents |
 //!
 //! # Non-goals
 //! No speed is measured, and no picture is looked at.
@@ -24,10 +25,12 @@ pub mod budget;
 pub mod cases;
 pub mod checks;
 pub mod cubature;
+pub mod document;
 pub mod furnace;
 pub mod generators;
 pub mod hard_cases;
 pub mod measure;
+pub mod model_table;
 pub mod partition;
 pub mod progress;
 pub mod report;

@@ -16,20 +16,29 @@
 //! - Uniforms are arguments in `[0, 1)`: one to choose a lobe, two for the direction in it.
 //!
 //! # Models
-//! | type | what | sampling |
-//! | --- | --- | --- |
-//! | [`Lambert`] | ideal diffuse | cosine |
-//! | [`OrenNayar`], [`OrenNayarQualitative`] | rough diffuse (V-cavities) | cosine |
-//! | [`SmoothConductor`], [`RoughConductor`], [`Conductor`] | metal; the last chooses by roughness | mirror; visible normals |
-//! | [`SmoothDielectric`], [`RoughDielectric`], [`Dielectric`] | glass; the last chooses by roughness and index | Fresnel; visible normals |
-//! | [`ThinDielectric`] | pane | Fresnel of the slab |
-//! | [`Plastic`], [`RoughPlastic`] | diffuse base under a dielectric | mirror or visible normals, and cosine |
-//! | [`Null`] | nothing: straight on | – |
-//! | [`Mask`], [`TwoSided`] | adapters | that of the inner model |
+//! <!-- begin models -->
+//! | model | parameters | laws | sampled by | source |
+//! | --- | --- | --- | --- | --- |
+//! | [`Conductor`] | eta, k, distribution, alpha_x, alpha_y, masking, specular_reflectance | reciprocal; albedo ≤ 1 | that of the variant chosen at construction | smooth-conductor, or rough-conductor for alpha >= 1e-8 |
+//! | [`Dielectric`] | eta, distribution, alpha_x, alpha_y, masking, specular_reflectance, specular_transmittance | reciprocal up to η²; albedo ≤ 1 | that of the variant chosen at construction | null for eta = 1, smooth-dielectric, or rough-dielectric for alpha >= 1e-8 |
+//! | [`Lambert`] | reflectance | reciprocal; albedo ≤ 1 in closed form | cosine | Lambert 1760 |
+//! | [`Mask`] | opacity, inner | reciprocal; albedo ≤ 1 | the inner one with probability opacity | Mitsuba, mask |
+//! | [`Null`] |  | reciprocal; albedo ≤ 1 in closed form | delta | index-matched limit of a dielectric |
+//! | [`OrenNayar`] | reflectance, sigma | reciprocal; albedo ≤ 1.0509 | cosine | Oren and Nayar 1994, eqs. 27 to 29 |
+//! | [`OrenNayarQualitative`] | reflectance, sigma | reciprocal; albedo ≤ 1.0152 | cosine | Oren and Nayar 1994, eq. 30 |
+//! | [`Plastic`] | eta, reflectance, specular_reflectance, scattering, internal reflectance | reciprocal; albedo ≤ 1 in closed form | mirror or cosine, by Fresnel and mean colours | Mitsuba, plastic; Wolff 1994 |
+//! | [`RoughConductor`] | eta, k, distribution, alpha_x, alpha_y, masking, specular_reflectance | reciprocal; albedo ≤ 1 | visible normals | Walter et al. 2007; Heitz 2014, 2018; Dupuy and Benyoub 2023 |
+//! | [`RoughDielectric`] | eta, distribution, alpha_x, alpha_y, masking, specular_reflectance, specular_transmittance | reciprocal up to η²; albedo ≤ 1 | visible normals, reflection with probability F | Walter et al. 2007; Heitz and d'Eon 2014 |
+//! | [`RoughPlastic`] | eta, distribution, alpha, masking, reflectance, specular_reflectance, scattering, internal reflectance | reciprocal; albedo ≤ 1 | mixture of visible normals and cosine | Mitsuba, roughplastic |
+//! | [`SmoothConductor`] | eta, k, specular_reflectance | reciprocal; albedo ≤ 1 in closed form | delta | Born and Wolf, section 14.2 |
+//! | [`SmoothDielectric`] | eta, specular_reflectance, specular_transmittance | reciprocal up to η²; albedo ≤ 1 in closed form | delta, reflection with probability F | Born and Wolf, section 1.5 |
+//! | [`ThinDielectric`] | eta, specular_reflectance, specular_transmittance | reciprocal; albedo ≤ 1 in closed form | delta, reflection with probability 2F/(1 + F) | Mitsuba, thindielectric |
+//! | [`TwoSided`] | front, back | reciprocal; albedo ≤ 1 | that of the side | Mitsuba, twosided |
+//! <!-- end models -->
 //!
 //! [`StochasticLayers`] is no model but a reference: any interface over any base, followed bounce by bounce.
 //!
-//! [`registry::MODELS`] is the same table with domains, laws and sources, as data. Below the models lie
+//! [`registry::MODELS`] is the same table with the domains of the parameters, as data. Below the models lie
 //! [`fresnel`] and [`microfacet`], usable alone.
 //!
 //! # Examples

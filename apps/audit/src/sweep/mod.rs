@@ -121,7 +121,7 @@ fn show(w: Vec3<f32>) -> String {
 }
 
 fn place(case: &Case<f32>, [wo, wi]: [Vec3<f32>; 2], value: f64) -> String {
-    format!("{}, wo {}, wi {}: {value:e}", case.parameters, show(wo), show(wi))
+    format!("{}, wo {}, wi {}: {value:.7e}", case.parameters, show(wo), show(wi))
 }
 
 #[cfg(test)]
