@@ -166,7 +166,13 @@ pub(crate) fn laws() -> Laws {
 
 pub(crate) fn case<T: Scalar>(fault: Fault) -> Case<T> {
     let albedo = T::lit(if fault == Fault::EnergyGain { 1.05 } else { 1.0 });
-    Case::new(format!("{fault:?}"), Broken { fault, albedo }).lossless().published(&[(0.8, 1.0)])
+    let lambert = |wo: [f64; 3], wi: [f64; 3]| {
+        if wo[2] > 0.0 && wi[2] > 0.0 { core::f64::consts::FRAC_1_PI } else { 0.0 }
+    };
+    Case::new(format!("{fault:?}"), Broken { fault, albedo })
+        .lossless()
+        .published(&[(0.8, 1.0)])
+        .textbook(lambert)
 }
 
 /// Outcome of a check on a model with a fault, in `f64`.

@@ -34,8 +34,8 @@ pub const CHECK: &str = "weak-furnace";
 /// section 2.3.
 pub fn weak_furnace<T: Scalar>(surface: &Surface<T>, budget: Budget) -> Outcome {
     let mut worst = Worst::default();
-    // Half of the viewers are below the surface.
-    let upper = viewers::<T>(2 * budget.viewers).into_iter().filter(|w| w.z() > T::ZERO);
+    // Half of the viewers are below the surface; a grazing one is among the first six.
+    let upper = viewers::<T>((2 * budget.viewers).max(6)).into_iter().filter(|w| w.z() > T::ZERO);
     for wo in upper {
         let covered = covered(surface, wo);
         worst.observe((covered - 1.0).abs(), || {

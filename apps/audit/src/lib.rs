@@ -14,6 +14,7 @@
 //! | [`hard_cases`] | single functions where naive forms break, each with that naive form |
 //! | [`partition`], [`cubature`], [`statistics`] | the numerics under the checks |
 //! | [`run`], [`report`] | everything on all cores, printed, as JSON and as Markdown |
+//! | [`mutations`] | bugs that the audit must find |
 //! | [`model_table`], [`document`] | what programs write in documents |
 //!
 //! # Non-goals
@@ -26,11 +27,13 @@ pub mod cases;
 pub mod checks;
 pub mod cubature;
 pub mod document;
+pub mod filter;
 pub mod furnace;
 pub mod generators;
 pub mod hard_cases;
 pub mod measure;
 pub mod model_table;
+pub mod mutations;
 pub mod partition;
 pub mod progress;
 pub mod report;

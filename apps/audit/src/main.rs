@@ -12,6 +12,7 @@ use std::process::ExitCode;
 use clap::Parser;
 use etendue_audit::budget::Budget;
 use etendue_audit::document::with_part;
+use etendue_audit::filter::Filter;
 use etendue_audit::model_table::{Links, model_table};
 use etendue_audit::progress::Progress;
 use etendue_audit::report::{Report, Totals};
@@ -21,9 +22,9 @@ use etendue_audit::{cases, checks, furnace, hard_cases, report, run};
 #[derive(Parser)]
 #[command(version, about)]
 struct Arguments {
-    /// Only models and checks whose name contains NAME.
-    #[arg(long, value_name = "NAME", default_value = "", hide_default_value = true)]
-    filter: String,
+    /// Only models and checks whose name contains NAME; may be given several times.
+    #[arg(long, value_name = "NAME")]
+    filter: Vec<String>,
     /// Many more points: a long run, with progress on the error output.
     #[arg(long)]
     exhaustive: bool,
@@ -110,9 +111,10 @@ fn audit(arguments: &Arguments) -> Result<Report, u8> {
     } else {
         (Budget::SMOKE, Progress::Silent)
     };
-    let records = run::run(budget, &arguments.filter, &progress);
+    let filter = Filter::new(&arguments.filter);
+    let records = run::run(budget, &filter, &progress);
     if records.is_empty() {
-        eprintln!("etendue-audit: no model or check is called '{}' (see --list)", arguments.filter);
+        eprintln!("etendue-audit: no model or check is called '{}' (see --list)", filter.names());
         return Err(USAGE);
     }
     let date = time::OffsetDateTime::now_utc().date().to_string();

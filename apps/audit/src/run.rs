@@ -8,6 +8,7 @@ use rayon::prelude::*;
 use crate::budget::Budget;
 use crate::cases::{self, ModelCases, Surface};
 use crate::checks::{self, Context};
+use crate::filter::Filter;
 use crate::furnace;
 use crate::hard_cases::HARD_CASES;
 use crate::measure::{Outcome, Worst};
@@ -48,10 +49,10 @@ struct Built {
 
 type Task<'a> = Box<dyn Fn() -> Record + Send + Sync + 'a>;
 
-/// Runs every check whose model or name contains `filter`, hard cases included.
+/// Runs every check that the filter wants, hard cases included.
 ///
 /// Records come in the order models, parameters, checks, whatever the number of threads.
-pub fn run(budget: Budget, filter: &str, progress: &Progress) -> Vec<Record> {
+pub fn run(budget: Budget, filter: &Filter, progress: &Progress) -> Vec<Record> {
     let models = cases::models();
     let built: Vec<Built> = models.iter().filter_map(Built::new).collect();
     // Counted over all models, so that a filtered run judges as the full run does.
@@ -69,7 +70,7 @@ pub fn run(budget: Budget, filter: &str, progress: &Progress) -> Vec<Record> {
     add_hard_cases(&mut tasks, filter);
 
     let mut records: Vec<Record> =
-        registration(&models).into_iter().filter(|r| matches(filter, r.model, r.check)).collect();
+        registration(&models).into_iter().filter(|r| filter.wants(r.model, r.check)).collect();
     // Parallel collection keeps the order of the tasks.
     records.par_extend(tasks.par_iter().map(|task| {
         let record = task();
@@ -87,10 +88,10 @@ pub fn run(budget: Budget, filter: &str, progress: &Progress) -> Vec<Record> {
 fn add_furnaces<'a, T: Scalar>(
     tasks: &mut Vec<Task<'a>>,
     surfaces: &'a [Surface<T>],
-    filter: &str,
+    filter: &Filter,
     budget: Budget,
 ) {
-    if matches(filter, furnace::MODEL, furnace::CHECK) {
+    if filter.wants(furnace::MODEL, furnace::CHECK) {
         tasks.extend(surfaces.iter().map(|surface| -> Task<'a> {
             Box::new(move || Record {
                 model: furnace::MODEL,
@@ -104,8 +105,8 @@ fn add_furnaces<'a, T: Scalar>(
     }
 }
 
-fn add_hard_cases(tasks: &mut Vec<Task>, filter: &str) {
-    for hard in HARD_CASES.iter().filter(|h| matches(filter, h.function, h.name)) {
+fn add_hard_cases(tasks: &mut Vec<Task>, filter: &Filter) {
+    for hard in HARD_CASES.iter().filter(|h| filter.wants(h.function, h.name)) {
         tasks.push(Box::new(|| {
             let verdict = hard.audit();
             Record {
@@ -142,10 +143,6 @@ pub fn registration(models: &[ModelCases]) -> Vec<Record> {
     registered.chain(strangers).map(record).collect()
 }
 
-fn matches(filter: &str, model: &str, check: &str) -> bool {
-    model.contains(filter) || check.contains(filter)
-}
-
 impl Built {
     /// `None` for a model that is not in the registry, which [`registration`] reports.
     fn new(model: &ModelCases) -> Option<Self> {
@@ -161,12 +158,12 @@ impl Built {
         &'a self,
         tasks: &mut Vec<Task<'a>>,
         cases: &'a [Case<T>],
-        filter: &str,
+        filter: &Filter,
         context: Context,
     ) {
         for case in cases {
             for check in checks::all::<T>() {
-                if matches(filter, self.name, check.name) {
+                if filter.wants(self.name, check.name) {
                     tasks.push(Box::new(move || Record {
                         model: self.name,
                         parameters: case.parameters.clone(),
@@ -181,8 +178,8 @@ impl Built {
     }
 
     /// The checks `precision` and `finite` of every case; the inputs are shared out evenly.
-    fn sweep(&self, filter: &str, budget: Budget, progress: &Progress) -> Vec<Record> {
-        let wanted = checks::SWEPT.map(|check| matches(filter, self.name, check));
+    fn sweep(&self, filter: &Filter, budget: Budget, progress: &Progress) -> Vec<Record> {
+        let wanted = checks::SWEPT.map(|check| filter.wants(self.name, check));
         if !wanted.contains(&true) {
             return Vec::new();
         }
@@ -203,7 +200,7 @@ impl Built {
             }
         }
         progress.swept(self.name, &records, time);
-        records.into_iter().filter(|r| matches(filter, r.model, r.check)).collect()
+        records.into_iter().filter(|r| filter.wants(r.model, r.check)).collect()
     }
 }
 
@@ -224,7 +221,7 @@ mod tests {
     fn records_do_not_depend_on_the_number_of_threads() {
         let run_on = |threads| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-            pool.install(|| run(Budget::TEST, "mask", &Progress::Silent))
+            pool.install(|| run(Budget::TEST, &Filter::new(["mask"]), &Progress::Silent))
         };
         let one = run_on(1);
         assert!(one.len() > 20 && one == run_on(3));

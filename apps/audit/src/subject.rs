@@ -48,6 +48,9 @@ pub enum Loss {
     None,
 }
 
+/// A published formula for `f(wo, wi)`, read literally, in `f64`.
+pub type Textbook = Box<dyn Fn([f64; 3], [f64; 3]) -> f64 + Send + Sync>;
+
 /// Parameters and the model built with them.
 pub struct Case<T: Scalar> {
     /// The parameters, as the report prints them.
@@ -58,6 +61,8 @@ pub struct Case<T: Scalar> {
     pub width: Width,
     /// Whether these parameters lose light.
     pub loss: Loss,
+    /// The formula as published, where the audit keeps it.
+    pub textbook: Option<Textbook>,
     /// Published directional albedos, `(θ in rad, albedo)`, that must be reproduced to the three
     /// digits printed.
     pub published: &'static [(f64, f64)],
@@ -74,6 +79,7 @@ impl<T: Scalar> Case<T> {
             bsdf: Box::new(bsdf),
             width: Width::Wide,
             loss: Loss::Some,
+            textbook: None,
             published: &[],
         }
     }
@@ -86,6 +92,14 @@ impl<T: Scalar> Case<T> {
     /// The same case, said to lose no light.
     pub fn lossless(self) -> Self {
         Self { loss: Loss::None, ..self }
+    }
+
+    /// The same case with its published formula.
+    pub fn textbook(
+        self,
+        formula: impl Fn([f64; 3], [f64; 3]) -> f64 + Send + Sync + 'static,
+    ) -> Self {
+        Self { textbook: Some(Box::new(formula)), ..self }
     }
 
     /// The same case with published albedos.

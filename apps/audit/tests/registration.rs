@@ -4,6 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use etendue_audit::budget::Budget;
+use etendue_audit::filter::Filter;
 use etendue_audit::progress::Progress;
 use etendue_audit::report::{self, Report, Totals};
 use etendue_audit::run::{registration, run};
@@ -90,7 +91,7 @@ fn cases_have_no_lobe_that_the_registry_does_not_state() {
 
 #[test]
 fn the_whole_audit_passes_on_a_small_budget() {
-    let records = run(Budget::TEST, "", &Progress::Silent);
+    let records = run(Budget::TEST, &Filter::default(), &Progress::Silent);
     let report = Report { date: "2000-01-01".into(), budget: Budget::TEST, records };
     let mut text = Vec::new();
     report::table(&mut text, &report).unwrap();

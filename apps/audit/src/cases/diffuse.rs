@@ -3,18 +3,24 @@
 use etendue_brdf::{Lambert, OrenNayar, OrenNayarQualitative, Sigma};
 
 use super::parameters::{reflectance, valid};
+use super::textbook;
 use crate::scalar::{Scalar, shared};
 use crate::subject::Case;
 
 pub(super) fn lambert<T: Scalar>() -> Vec<Case<T>> {
-    let case = |rho| Case::new(format!("albedo {rho}"), Lambert::new(reflectance::<T>(rho)));
+    let case = |rho: f64| {
+        Case::new(format!("albedo {rho}"), Lambert::new(reflectance::<T>(rho)))
+            .textbook(move |wo, wi| textbook::lambert(rho, wo, wi))
+    };
     vec![case(0.0), case(0.5), case(1.0).lossless().published(&[(0.01, 1.0), (1.56, 1.0)])]
 }
 
 pub(super) fn oren_nayar<T: Scalar>() -> Vec<Case<T>> {
-    let case = |rho, sigma: f64| {
+    let case = |rho: f64, sigma: f64| {
         let model = OrenNayar::new(reflectance::<T>(rho), valid(Sigma::new(shared::<T>(sigma))));
+        let [r, s] = [rho, sigma].map(shared::<f64>);
         Case::new(format!("albedo {rho}, σ {sigma}"), model)
+            .textbook(move |wo, wi| textbook::oren_nayar(r, s, wo, wi))
     };
     vec![
         case(0.0, 0.3),
@@ -46,10 +52,12 @@ pub(super) fn oren_nayar<T: Scalar>() -> Vec<Case<T>> {
 }
 
 pub(super) fn oren_nayar_qualitative<T: Scalar>() -> Vec<Case<T>> {
-    let case = |rho, sigma: f64| {
+    let case = |rho: f64, sigma: f64| {
         let sigma_checked = valid(Sigma::new(shared::<T>(sigma)));
         let model = OrenNayarQualitative::new(reflectance::<T>(rho), sigma_checked);
+        let [r, s] = [rho, sigma].map(shared::<f64>);
         Case::new(format!("albedo {rho}, σ {sigma}"), model)
+            .textbook(move |wo, wi| textbook::oren_nayar_qualitative(r, s, wo, wi))
     };
     vec![
         case(0.0, 0.3),

@@ -6,7 +6,8 @@ use etendue_brdf::{
 };
 
 use super::parameters::{BECKMANN, alpha, ior, reflectance};
-use crate::scalar::Scalar;
+use super::textbook;
+use crate::scalar::{Scalar, shared};
 use crate::subject::Case;
 
 fn interface<T: Scalar>(eta: f64) -> PlasticInterface<T> {
@@ -16,7 +17,13 @@ fn interface<T: Scalar>(eta: f64) -> PlasticInterface<T> {
 pub(super) fn plastic<T: Scalar>() -> Vec<Case<T>> {
     let case = |rho: f64, eta: f64, scattering| {
         let model = Plastic::new(interface::<T>(eta), reflectance::<T>(rho), scattering);
+        let [r, n] = [rho, eta].map(shared::<f64>);
+        let base = match scattering {
+            InternalScattering::Linear => textbook::linear_base(r, n),
+            InternalScattering::NonLinear => textbook::non_linear_base(r, n),
+        };
         Case::new(format!("albedo {rho}, η {eta}, {scattering:?}"), model)
+            .textbook(move |wo, wi| textbook::plastic(base, n, wo, wi))
     };
     vec![
         case(0.0, 1.5, InternalScattering::Linear),

@@ -8,6 +8,7 @@ mod layered;
 mod parameters;
 mod rough;
 mod smooth;
+mod textbook;
 
 use etendue_brdf::registry::{MODELS, ModelInfo};
 

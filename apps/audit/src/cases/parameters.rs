@@ -5,6 +5,7 @@ use etendue_brdf::{
     ParameterError, Reflectance,
 };
 
+use super::textbook;
 use crate::scalar::{Scalar, shared};
 use crate::subject::{Case, Width};
 
@@ -89,6 +90,8 @@ pub struct Surface<T> {
     pub facets: Microfacets<T>,
     /// Its distribution.
     pub distribution: Distribution,
+    /// How masking and shadowing are combined.
+    pub masking: Masking,
     /// Its widths αx and αy.
     pub widths: [f64; 2],
     /// How its lobe compares with what can be resolved.
@@ -103,19 +106,32 @@ pub fn surfaces<T: Scalar>() -> Vec<Surface<T>> {
             name,
             facets: facets::<T>(distribution, widths, masking),
             distribution,
+            masking,
             widths: widths.map(|a| shared::<T>(a).to_f64()),
             width: width::<T>(widths[0]),
         })
         .collect()
 }
 
-/// One case per surface, with what `model` makes of it.
+/// One case per surface, with what `model` makes of it and the formula that it stands for.
 pub(super) fn on_surfaces<T: Scalar, B: Bsdf<Color = T> + Send + Sync + 'static>(
     parameters: &str,
     model: impl Fn(Microfacets<T>) -> B,
+    formula: impl Fn(textbook::Facets, [f64; 3], [f64; 3]) -> f64 + Copy + Send + Sync + 'static,
 ) -> Vec<Case<T>> {
     surfaces::<T>()
         .into_iter()
-        .map(|s| Case::new(format!("{}{parameters}", s.name), model(s.facets)).of_width(s.width))
+        .map(|s| {
+            let case = Case::new(format!("{}{parameters}", s.name), model(s.facets));
+            let case = case.of_width(s.width);
+            let Surface { distribution, widths, masking, .. } = s;
+            let facets = textbook::Facets { distribution, widths, masking };
+            // Literal forms lose their digits together with the width of the lobe.
+            if widths[0] < 1e-3 {
+                case
+            } else {
+                case.textbook(move |wo, wi| formula(facets, wo, wi))
+            }
+        })
         .collect()
 }

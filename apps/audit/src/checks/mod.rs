@@ -10,6 +10,7 @@ mod normalisation;
 mod published_albedo;
 mod reciprocity;
 mod strong_furnace;
+mod textbook;
 mod weight;
 
 use crate::budget::Budget;
@@ -35,8 +36,9 @@ pub struct Check<T: Scalar> {
 }
 
 /// Every law that is asked of one precision at a time, in the order of the report.
-pub fn all<T: Scalar>() -> [Check<T>; 11] {
+pub fn all<T: Scalar>() -> [Check<T>; 12] {
     [
+        Check { name: "textbook", run: textbook::check },
         Check { name: "reciprocity", run: reciprocity::check },
         Check { name: "energy", run: energy::check },
         Check { name: "strong-furnace", run: strong_furnace::check },

@@ -8,6 +8,7 @@
 mod conductor;
 mod cone;
 mod cosine_hemisphere;
+mod erf_inv;
 mod fresnel;
 mod half_vector;
 mod mis_weights;
@@ -15,6 +16,7 @@ mod ndf;
 mod oren_nayar;
 mod thin_slab;
 mod total_reflection;
+mod transmittance_table;
 mod uniforms;
 mod visible_normals;
 
@@ -47,8 +49,10 @@ pub const HARD_CASES: &[HardCase] = &[
     oren_nayar::CASE,
     thin_slab::CASE,
     total_reflection::CASE,
+    transmittance_table::CASE,
     uniforms::CASE,
     cosine_hemisphere::CASE,
+    erf_inv::CASE,
     mis_weights::CASE,
     cone::CASE,
 ];
