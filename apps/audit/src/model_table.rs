@@ -32,6 +32,7 @@ fn laws(info: &ModelInfo) -> String {
     let reciprocity = match info.reciprocity {
         Reciprocity::Reciprocal => "reciprocal",
         Reciprocity::UpToSquaredIndex => "reciprocal up to η²",
+        Reciprocity::NonReciprocal { .. } => "**not reciprocal**",
     };
     let energy = match info.energy {
         Energy::Conserves => "albedo ≤ 1".to_owned(),

@@ -31,20 +31,27 @@ pub fn half_vector<V: Vector3>(wo: V, wi: V) -> Option<(V, V::Scalar)> {
     let mut sum = wo + wi;
     let mut squared = sum.length_squared();
     if squared < V::Scalar::lit(NEARLY_OPPOSITE) {
-        // w/|w| = w (1 − ½ (|w|² − 1)) but for squares of a rounding error.
-        let excess = |w: V| V::Scalar::excess_of_squares(w.x(), w.y(), w.z()) * V::Scalar::HALF;
-        let correction = wo * excess(wo) + wi * excess(wi);
-        // Directions far from unit length are outside the domain; their sum stays as it is.
-        if correction.length_squared() < squared {
-            sum = sum - correction;
-            squared = sum.length_squared();
-        }
+        sum = sum_of_units(wo, wi);
+        squared = sum.length_squared();
     }
     if !(squared > V::Scalar::ZERO) {
         return None;
     }
     let length = squared.sqrt();
     Some((sum / length, (length * V::Scalar::HALF).min(V::Scalar::ONE)))
+}
+
+/// The sum of the unit vectors that the coordinates of `wo` and `wi` stand for: without the rounding of
+/// their lengths, and without that of dividing by them.
+///
+/// Directions far from unit length are outside the domain; their sum stays as it is.
+#[inline(always)]
+pub(crate) fn sum_of_units<V: Vector3>(wo: V, wi: V) -> V {
+    let sum = wo + wi;
+    // w/|w| = w (1 − ½ (|w|² − 1)) but for squares of a rounding error.
+    let excess = |w: V| V::Scalar::excess_of_squares(w.x(), w.y(), w.z()) * V::Scalar::HALF;
+    let correction = wo * excess(wo) + wi * excess(wi);
+    if correction.length_squared() < sum.length_squared() { sum - correction } else { sum }
 }
 
 #[cfg(test)]

@@ -222,6 +222,81 @@ impl<T: Real> Sigma<T> {
     }
 }
 
+/// Roughness of a diffuse surface, from Lambertian to maximally rough, dimensionless. Domain `[0, 1]`.
+///
+/// What it stands for (a slope, a width, a retro-reflection) is for the model to say.
+#[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
+pub struct Roughness<T>(T);
+
+impl<T: Real> Roughness<T> {
+    /// Checks a roughness.
+    ///
+    /// # Errors
+    /// [`ParameterError`] outside `[0, 1]`.
+    pub fn new(roughness: T) -> Result<Self, ParameterError> {
+        within("roughness", roughness, [0.0, 1.0], "in [0, 1]").map(Self)
+    }
+
+    /// The roughness moved into `[0, 1]`, NaN to 0: for values read from textures.
+    #[inline]
+    pub fn clamped(roughness: T) -> Self {
+        Self(roughness.clamp_to(T::ZERO, T::ONE))
+    }
+
+    /// The number.
+    #[inline(always)]
+    pub fn value(self) -> T {
+        self.0
+    }
+}
+
+/// Exponent n of a cosine lobe of the Phong family, dimensionless. Domain `[0, 1e12]`.
+///
+/// The lobe is `√(2/n)` wide. At the upper end that is 1.4e-6 rad, a dozen spacings of a unit `f32`
+/// vector: narrower ones are a mirror, for which there are delta models.
+#[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
+pub struct Exponent<T>(T);
+
+impl<T: Real> Exponent<T> {
+    /// The exponents of the flattest and of the narrowest lobe.
+    pub const RANGE: [f64; 2] = [0.0, 1e12];
+
+    /// Checks an exponent.
+    ///
+    /// # Errors
+    /// [`ParameterError`] outside `[0, 1e12]`.
+    pub fn new(exponent: T) -> Result<Self, ParameterError> {
+        within("exponent", exponent, Self::RANGE, "in [0, 1e12]").map(Self)
+    }
+
+    /// The exponent moved into the domain, NaN to 0: for values read from textures.
+    #[inline]
+    pub fn clamped(exponent: T) -> Self {
+        Self(exponent.clamp_to(T::ZERO, T::lit(Self::RANGE[1])))
+    }
+
+    /// The number.
+    #[inline(always)]
+    pub fn value(self) -> T {
+        self.0
+    }
+}
+
+/// Checks that two shares of the same light do not exceed it together, in any channel.
+///
+/// The sum is rounded: shares that add up to 1 in decimal pass, whatever their last bits are.
+pub(crate) fn at_most_all_together<C: Spectrum>(
+    parameter: &'static str,
+    a: Reflectance<C>,
+    b: Reflectance<C>,
+) -> Result<(), ParameterError> {
+    let sum = a.value() + b.value();
+    for i in 0..C::CHANNELS {
+        within(parameter, sum.channel(i), [0.0, 1.0], "at most 1")?;
+    }
+    Ok(())
+}
+
 /// Opacity, the share of light that meets the surface at all. Domain `[0, 1]`.
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
 pub struct Opacity<T>(T);
@@ -278,6 +353,13 @@ impl<C: Spectrum> OpticalDepth<C> {
     pub fn transmittance(self, cos: C::Real) -> C {
         self.0.map(|tau| if tau > C::Real::ZERO { (-tau / cos.abs()).exp() } else { C::Real::ONE })
     }
+
+    /// `1 − exp(−τ / |cos θ|)`, without the cancellation in thin layers.
+    #[inline]
+    pub fn absorptance(self, cos: C::Real) -> C {
+        let zero = C::Real::ZERO;
+        self.0.map(|tau| if tau > zero { -(-tau / cos.abs()).exp_m1() } else { zero })
+    }
 }
 
 #[cfg(test)]
@@ -295,6 +377,8 @@ mod tests {
             assert!(Reflectance::new(x).is_err());
             assert!(Sigma::new(x).is_err());
             assert!(Opacity::new(x).is_err());
+            assert!(Roughness::new(x).is_err());
+            assert!(Exponent::new(x).is_err());
         }
     }
 
@@ -306,6 +390,20 @@ mod tests {
         );
         assert_eq!(Alpha::clamped(f32::NAN).value(), 1e-8);
         assert_eq!(Opacity::clamped(f64::INFINITY).value(), 1.0);
+        assert_eq!(Roughness::clamped(f32::NAN).value(), 0.0);
+        assert_eq!(Exponent::clamped(f32::INFINITY).value(), 1e12);
+    }
+
+    #[test]
+    fn shares_that_are_1_together_in_decimal_are_accepted_and_no_more() {
+        let check = |a: f32, b: f32| {
+            let [a, b] = [a, b].map(|x| Reflectance::new(x).unwrap());
+            at_most_all_together("sum", a, b)
+        };
+        for i in 0..=1000 {
+            assert!(check(i as f32 / 1000.0, (1000 - i) as f32 / 1000.0).is_ok(), "{i}");
+        }
+        assert!(check(0.5, 0.500_000_2).is_err());
     }
 
     #[test]

@@ -1,14 +1,20 @@
 //! The list of all models: what they take, promise and rest on.
 
-use crate::{Lobes, adapter, diffuse, layered, rough, smooth};
+use crate::{Lobes, adapter, diffuse, layered, phong, rough, smooth};
 
 /// Whether exchanging the two directions changes a model's value.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Reciprocity {
     /// `f(wo, wi) = f(wi, wo)`.
     Reciprocal,
     /// Reflection is reciprocal; refraction up to the squared index, `f/η²` being symmetric.
     UpToSquaredIndex,
+    /// Not symmetric, by the model's own definition.
+    NonReciprocal {
+        /// `|f(a, b) − f(b, a)| / max(f(a, b), f(b, a))` for a the normal and b at cos θ = 0.1, the same for
+        /// all parameters with which f is not 0 for both.
+        residual: f64,
+    },
 }
 
 /// Whether a model can reflect more than it receives.
@@ -93,7 +99,13 @@ pub(crate) mod parameter {
         named("distribution", "GGX, Beckmann (exact or Walter's fit)");
     pub(crate) const MASKING: ParameterInfo = named("masking", "height-correlated, separable");
     pub(crate) const SCATTERING: ParameterInfo = named("scattering", "linear, non-linear");
-    pub(crate) const INTERNAL: ParameterInfo = named("internal reflectance", "exact, Mitsuba");
+    pub(crate) const INTERNAL: ParameterInfo = named("internal_reflectance", "exact, Mitsuba");
+    pub(crate) const ROUGHNESS: ParameterInfo = named("roughness", "in [0, 1]");
+    pub(crate) const NU: ParameterInfo = named("nu", "in [0, 1e12]");
+    pub(crate) const NV: ParameterInfo = named("nv", "in [0, 1e12]");
+    pub(crate) const RS: ParameterInfo = named("rs", "each channel in [0, 1]");
+    pub(crate) const RD: ParameterInfo = named("rd", "each channel in [0, 1]");
+    pub(crate) const SAMPLING: ParameterInfo = named("sampling", "see the type");
 }
 
 /// Every type that implements [`Bsdf`](crate::Bsdf), in alphabetical order of the names; each
@@ -101,15 +113,30 @@ pub(crate) mod parameter {
 ///
 /// A test of `etendue-audit` compares it with the sources, so that a new model cannot be forgotten.
 pub const MODELS: &[ModelInfo] = &[
+    smooth::absorbing_slab::INFO,
+    phong::ashikhmin_shirley::INFO,
+    phong::ashikhmin_shirley_diffuse::INFO,
+    phong::ashikhmin_shirley_specular::INFO,
+    adapter::blend::INFO,
+    diffuse::burley::INFO,
     rough::conductor::INFO,
+    layered::coupled::INFO,
     rough::dielectric::INFO,
+    diffuse::diffuse_transmitter::INFO,
+    diffuse::eon::INFO,
+    diffuse::eon::INFO_APPROXIMATE,
     diffuse::lambert::INFO,
+    layered::layered_fresnel::INFO,
+    layered::layered_linear::INFO,
     adapter::mask::INFO,
     smooth::null::INFO,
     diffuse::oren_nayar::INFO,
+    diffuse::oren_nayar_fujii::INFO,
     diffuse::oren_nayar_qualitative::INFO,
+    phong::modified_phong::INFO,
     layered::plastic::INFO,
     rough::rough_conductor::INFO,
+    layered::rough_coupled::INFO,
     rough::rough_dielectric::INFO,
     layered::rough_plastic::INFO,
     smooth::smooth_conductor::INFO,

@@ -6,6 +6,7 @@ mod adapter;
 mod diffuse;
 mod layered;
 mod parameters;
+mod phong;
 mod rough;
 mod smooth;
 mod textbook;
@@ -37,6 +38,23 @@ pub fn models() -> Vec<ModelCases> {
             diffuse::oren_nayar_qualitative,
             diffuse::oren_nayar_qualitative,
         ),
+        of("oren-nayar-fujii", diffuse::oren_nayar_fujii, diffuse::oren_nayar_fujii),
+        of("eon", diffuse::eon, diffuse::eon),
+        of("eon-approx", diffuse::eon_approx, diffuse::eon_approx),
+        of("burley", diffuse::burley, diffuse::burley),
+        of("diffuse-transmitter", diffuse::diffuse_transmitter, diffuse::diffuse_transmitter),
+        of("phong", phong::phong, phong::phong),
+        of("ashikhmin-shirley", phong::ashikhmin_shirley, phong::ashikhmin_shirley),
+        of(
+            "ashikhmin-shirley-specular",
+            phong::ashikhmin_shirley_specular,
+            phong::ashikhmin_shirley_specular,
+        ),
+        of(
+            "ashikhmin-shirley-diffuse",
+            phong::ashikhmin_shirley_diffuse,
+            phong::ashikhmin_shirley_diffuse,
+        ),
         of("smooth-conductor", smooth::smooth_conductor, smooth::smooth_conductor),
         of("rough-conductor", rough::rough_conductor, rough::rough_conductor),
         of("conductor", rough::conductor, rough::conductor),
@@ -44,9 +62,15 @@ pub fn models() -> Vec<ModelCases> {
         of("thin-dielectric", smooth::thin_dielectric, smooth::thin_dielectric),
         of("rough-dielectric", rough::rough_dielectric, rough::rough_dielectric),
         of("dielectric", rough::dielectric, rough::dielectric),
+        of("absorbing-slab", smooth::absorbing_slab, smooth::absorbing_slab),
         of("null", smooth::null, smooth::null),
         of("plastic", layered::plastic, layered::plastic),
         of("rough-plastic", layered::rough_plastic, layered::rough_plastic),
+        of("layered-linear", layered::layered_linear, layered::layered_linear),
+        of("layered-fresnel", layered::layered_fresnel, layered::layered_fresnel),
+        of("coupled", layered::coupled, layered::coupled),
+        of("rough-coupled", layered::rough_coupled, layered::rough_coupled),
+        of("blend", adapter::blend, adapter::blend),
         of("mask", adapter::mask, adapter::mask),
         of("two-sided", adapter::two_sided, adapter::two_sided),
     ]

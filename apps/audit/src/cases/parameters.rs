@@ -5,7 +5,7 @@ use etendue_brdf::{
     ParameterError, Reflectance,
 };
 
-use super::textbook;
+use super::textbook::Facets;
 use crate::scalar::{Scalar, shared};
 use crate::subject::{Case, Width};
 
@@ -113,25 +113,29 @@ pub fn surfaces<T: Scalar>() -> Vec<Surface<T>> {
         .collect()
 }
 
-/// One case per surface, with what `model` makes of it and the formula that it stands for.
+/// One case per surface, with what `model` makes of it.
 pub(super) fn on_surfaces<T: Scalar, B: Bsdf<Color = T> + Send + Sync + 'static>(
     parameters: &str,
     model: impl Fn(Microfacets<T>) -> B,
-    formula: impl Fn(textbook::Facets, [f64; 3], [f64; 3]) -> f64 + Copy + Send + Sync + 'static,
 ) -> Vec<Case<T>> {
     surfaces::<T>()
         .into_iter()
-        .map(|s| {
-            let case = Case::new(format!("{}{parameters}", s.name), model(s.facets));
-            let case = case.of_width(s.width);
-            let Surface { distribution, widths, masking, .. } = s;
-            let facets = textbook::Facets { distribution, widths, masking };
-            // Literal forms lose their digits together with the width of the lobe.
-            if widths[0] < 1e-3 {
-                case
-            } else {
-                case.textbook(move |wo, wi| formula(facets, wo, wi))
-            }
-        })
+        .map(|s| Case::new(format!("{}{parameters}", s.name), model(s.facets)).of_width(s.width))
         .collect()
+}
+
+/// The cases of [`on_surfaces`] with the formula that they stand for. Literal forms lose their digits
+/// together with the width of the lobe: the narrowest surfaces go without.
+pub(super) fn as_published<T: Scalar>(
+    cases: Vec<Case<T>>,
+    formula: impl Fn(Facets, [f64; 3], [f64; 3]) -> f64 + Copy + Send + Sync + 'static,
+) -> impl Iterator<Item = Case<T>> {
+    cases.into_iter().zip(surfaces::<T>()).map(move |(case, surface)| {
+        let Surface { distribution, widths, masking, .. } = surface;
+        if widths[0] < 1e-3 {
+            return case;
+        }
+        let facets = Facets { distribution, widths, masking };
+        case.textbook(move |wo, wi| formula(facets, wo, wi))
+    })
 }

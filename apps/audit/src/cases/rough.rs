@@ -4,7 +4,7 @@ use etendue_brdf::{
     ComplexIor, Conductor, Dielectric, Distribution, Masking, RoughConductor, RoughDielectric,
 };
 
-use super::parameters::{METALS, complex, facets, ior, on_surfaces, valid};
+use super::parameters::{METALS, as_published, complex, facets, ior, on_surfaces, valid};
 use super::textbook;
 use crate::scalar::{Scalar, shared};
 use crate::subject::{Case, Width};
@@ -13,12 +13,13 @@ pub(super) fn rough_conductor<T: Scalar>() -> Vec<Case<T>> {
     let mirror = |facets| RoughConductor::new(ComplexIor::perfect(), facets);
     let gold = |facets| RoughConductor::new(complex::<T>(METALS[1].1), facets);
     let gold_index = METALS[1].1.map(shared::<f64>);
-    let mut cases = on_surfaces(", perfect mirror", mirror, |facets, wo, wi| {
+    let white = as_published(on_surfaces(", perfect mirror", mirror), |facets, wo, wi| {
         facets.reflection(|_| 1.0, wo, wi)
     });
-    cases.extend(on_surfaces(", gold", gold, move |facets, wo, wi| {
+    let golden = as_published(on_surfaces(", gold", gold), move |facets, wo, wi| {
         facets.reflection(|cos| textbook::conductor(cos, gold_index), wo, wi)
-    }));
+    });
+    let mut cases: Vec<_> = white.chain(golden).collect();
     // The only closed form of a rough albedo: 1 − ln 2.
     let widest = facets::<T>(Distribution::Ggx, [1.0; 2], Masking::HeightCorrelated);
     cases.push(Case::new("ggx α 1, perfect mirror", mirror(widest)).published(&[(0.0, 0.306_853)]));
@@ -37,8 +38,9 @@ pub(super) fn conductor<T: Scalar>() -> Vec<Case<T>> {
 
 pub(super) fn rough_dielectric<T: Scalar>() -> Vec<Case<T>> {
     let model = |eta: f64| move |facets| valid(RoughDielectric::<T>::new(ior::<T>(eta), facets));
-    let mut cases =
-        on_surfaces(", η 1.5", model(1.5), |facets, wo, wi| facets.dielectric(1.5, wo, wi));
+    let glass = on_surfaces(", η 1.5", model(1.5));
+    let mut cases: Vec<_> =
+        as_published(glass, |facets, wo, wi| facets.dielectric(1.5, wo, wi)).collect();
     for eta in [0.4, 1.001, 2.4, 4.0] {
         let surface = facets::<T>(Distribution::Ggx, [0.4; 2], Masking::HeightCorrelated);
         let facets = textbook::Facets {

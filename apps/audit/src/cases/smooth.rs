@@ -1,9 +1,12 @@
 //! Surfaces without roughness.
 
-use etendue_brdf::{ComplexIor, Null, SmoothConductor, SmoothDielectric, ThinDielectric};
+use etendue_brdf::{
+    AbsorbingSlab, ComplexIor, Null, OpticalDepth, SmoothConductor, SmoothDielectric,
+    ThinDielectric,
+};
 
-use super::parameters::{METALS, complex, ior};
-use crate::scalar::Scalar;
+use super::parameters::{METALS, complex, ior, valid};
+use crate::scalar::{Scalar, shared};
 use crate::subject::Case;
 
 /// Relative indices: next to 1 on either side, common glass from both sides, and the extremes.
@@ -35,6 +38,17 @@ pub(super) fn thin_dielectric<T: Scalar>() -> Vec<Case<T>> {
             Case::new(format!("η {eta}"), ThinDielectric::<T>::new(ior::<T>(eta))).lossless()
         })
         .collect()
+}
+
+pub(super) fn absorbing_slab<T: Scalar>() -> Vec<Case<T>> {
+    let case = |eta: f64, depth: f64| {
+        let tau = valid(OpticalDepth::new(shared::<T>(depth)));
+        let model = AbsorbingSlab::<T>::new(ior::<T>(eta), tau);
+        Case::new(format!("η {eta}, optical depth {depth}"), model)
+    };
+    let mut cases: Vec<_> = INDICES.iter().map(|&eta| case(eta, 0.5)).collect();
+    cases.extend([0.0, 1e-6, 100.0].map(|depth| case(1.5, depth)));
+    cases
 }
 
 pub(super) fn null<T: Scalar>() -> Vec<Case<T>> {

@@ -1,6 +1,6 @@
 //! Conductor Fresnel near the dielectric limit.
 
-use etendue_brdf::fresnel::conductor;
+use etendue_brdf::fresnel::{conductor, conductor_textbook};
 
 use super::{HardCase, decades, relative};
 use crate::measure::{Outcome, Worst};
@@ -13,7 +13,7 @@ pub(super) const CASE: HardCase = HardCase {
     problem: "√(t² + 4η²k²) + t cancels for t < 0, and 2 a cos θ all but equals what it is taken from",
     remedy: "the larger part of the complex root, the smaller from their product; quotients without differences",
     sound: || sweep(conductor),
-    naive: || sweep(common),
+    naive: || sweep(conductor_textbook),
 };
 
 /// Bound: 3e-6 relative, some twenty ulp for a complex root and four quotients; the naive form is
@@ -49,16 +49,4 @@ fn exact(c: f64, eta: f64, k: f64) -> f64 {
     let rp =
         squared(n2[0] * c - q[0], n2[1] * c - q[1]) / squared(n2[0] * c + q[0], n2[1] * c + q[1]);
     0.5 * (rs + rp)
-}
-
-fn common(c: f32, eta: f32, k: f32) -> f32 {
-    let (c2, s2) = (c * c, 1.0 - c * c);
-    let t0 = eta * eta - k * k - s2;
-    let sum = (t0 * t0 + 4.0 * eta * eta * k * k).sqrt();
-    let t1 = sum + c2;
-    let a = (0.5 * (sum + t0)).sqrt();
-    let t2 = 2.0 * a * c;
-    let rs = (t1 - t2) / (t1 + t2);
-    let (t3, t4) = (c2 * sum + s2 * s2, t2 * s2);
-    0.5 * (rs + rs * (t3 - t4) / (t3 + t4))
 }

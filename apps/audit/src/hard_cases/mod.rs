@@ -5,15 +5,22 @@
 //! forms fail, compares `f32` with a reference in `f64`, and proves that it can fail: the naive
 //! form, kept here as the counter-example, must exceed the bound over the same inputs.
 
+mod artistic_conductor;
+mod ashikhmin_shirley;
 mod conductor;
 mod cone;
 mod cosine_hemisphere;
+mod coupled;
+mod eon_albedo;
 mod erf_inv;
 mod fresnel;
 mod half_vector;
+mod matched_dielectric;
 mod mis_weights;
 mod ndf;
 mod oren_nayar;
+mod smooth_limit;
+mod solid_angle;
 mod thin_slab;
 mod total_reflection;
 mod transmittance_table;
@@ -42,11 +49,20 @@ pub struct HardCase {
 pub const HARD_CASES: &[HardCase] = &[
     fresnel::CASE,
     conductor::CASE,
+    artistic_conductor::CASE,
+    matched_dielectric::CASE,
+    smooth_limit::CONDUCTOR,
+    smooth_limit::DIELECTRIC,
     ndf::GGX,
     ndf::BECKMANN,
     half_vector::CASE,
     visible_normals::CASE,
+    ashikhmin_shirley::EVAL,
+    ashikhmin_shirley::POLAR,
+    ashikhmin_shirley::AZIMUTH,
     oren_nayar::CASE,
+    eon_albedo::CASE,
+    coupled::CASE,
     thin_slab::CASE,
     total_reflection::CASE,
     transmittance_table::CASE,
@@ -55,6 +71,8 @@ pub const HARD_CASES: &[HardCase] = &[
     erf_inv::CASE,
     mis_weights::CASE,
     cone::CASE,
+    solid_angle::TRIANGLE,
+    solid_angle::RECTANGLE,
 ];
 
 /// What a hard case showed.

@@ -22,9 +22,33 @@ use super::checked_cosine;
 pub fn schlick<C: Spectrum>(f0: C, cos_i: C::Real) -> C {
     let one = <C::Real as Real>::ONE;
     let Some(c) = checked_cosine(cos_i) else { return C::black() };
-    let m = one - c;
-    let m5 = (m * m) * (m * m) * m;
+    let m5 = fifth_power(one - c);
     f0.map(|f| if f >= C::Real::ZERO && f <= one { f + (one - f) * m5 } else { C::Real::ZERO })
+}
+
+/// `1 − F` of Schlick's approximation, without the cancellation towards grazing incidence.
+///
+/// ```text
+/// 1 − F = (1 − F0)(1 − m⁵) = (1 − F0) c (1 + m + m² + m³ + m⁴),  m = 1 − c
+/// ```
+///
+/// Arguments as for [`schlick`]; a channel outside gives 0.
+///
+/// # Precision
+/// Within 6 ulp, relative to the small number itself.
+#[inline]
+pub fn schlick_transmittance<C: Spectrum>(f0: C, cos_i: C::Real) -> C {
+    let one = <C::Real as Real>::ONE;
+    let Some(c) = checked_cosine(cos_i) else { return C::black() };
+    let m = one - c;
+    let q = c * ((one + m) * (one + m * m) + (m * m) * (m * m));
+    f0.map(|f| if f >= C::Real::ZERO && f <= one { (one - f) * q } else { C::Real::ZERO })
+}
+
+/// `m⁵` by three products.
+#[inline(always)]
+pub(super) fn fifth_power<T: Real>(m: T) -> T {
+    (m * m) * (m * m) * m
 }
 
 /// Reflectance at normal incidence of an interface with relative index η.
@@ -49,18 +73,16 @@ pub fn f0_from_ior<T: Real>(eta: T) -> T {
 /// The relative index η ≥ 1 whose normal reflectance is `f0`: the inverse of [`f0_from_ior`].
 ///
 /// ```text
-/// η = (1 + √F0) / (1 − √F0)
+/// η = (1 + √F0) / (1 − √F0) = (1 + √F0)² / (1 − F0)
 /// ```
 ///
-/// `f0` in `[0, 1)`; NaN is returned outside.
+/// `f0` in `[0, 1)`; `None` outside. The same reflectance has the interface seen from the other side, `1/η`.
+///
+/// # Precision
+/// 4 ulp; `1 − √F0` would cancel for F0 → 1.
 #[inline]
-pub fn ior_from_f0<T: Real>(f0: T) -> T {
-    if f0 >= T::ZERO && f0 < T::ONE {
-        let r = f0.sqrt();
-        (T::ONE + r) / (T::ONE - r)
-    } else {
-        T::NAN
-    }
+pub fn ior_from_f0<T: Real>(f0: T) -> Option<T> {
+    (f0 >= T::ZERO && f0 < T::ONE).then(|| (T::ONE + f0.sqrt()).sqr() / (T::ONE - f0))
 }
 
 #[cfg(test)]
@@ -76,9 +98,24 @@ mod tests {
     #[test]
     fn ior_and_f0_are_inverses() {
         for eta in [1.0_f64, 1.33, 1.5, 2.4, 10.0] {
-            // √F0 → 1 for large η amplifies rounding by η.
-            assert!((ior_from_f0(f0_from_ior(eta)) - eta).abs() < 1e-14 * eta * eta, "{eta}");
+            let back = ior_from_f0(f0_from_ior(eta)).unwrap();
+            // F0 → 1 for large η amplifies the rounding of F0 by η.
+            assert!((back - eta).abs() < 1e-15 * eta * (1.0 + eta), "{eta} {back}");
         }
-        assert!(ior_from_f0(1.0_f32).is_nan());
+        for bad in [1.0_f32, -0.1, f32::NAN, f32::INFINITY] {
+            assert_eq!(ior_from_f0(bad), None);
+        }
+    }
+
+    #[test]
+    fn the_transmittance_is_the_complement_to_its_own_last_digits() {
+        for c in [1.0_f32, 0.7, 0.1, 1e-3, 1e-7, 0.0] {
+            let m5 = fifth_power(1.0 - f64::from(c));
+            // In f64 the difference keeps nine digits of the smallest.
+            let want = 0.96 * (1.0 - m5);
+            let error = (f64::from(schlick_transmittance(0.04_f32, c)) - want).abs();
+            assert!(error <= 6.0 * f64::from(f32::EPSILON) * want, "{c} {error}");
+        }
+        assert_eq!(schlick_transmittance(f64::NAN, 0.5), 0.0);
     }
 }
