@@ -38,4 +38,11 @@ pub(super) const MUTATIONS: &[Mutation] = &[
         replace: "            self.front.albedo(wo.flip_z())",
         filters: &["two-sided"],
     },
+    Mutation {
+        fault: "densities of a blend exchanged: swapped weights",
+        file: "crates/brdf/src/adapter/blend.rs",
+        find: "(pdf * rest + other * w).min(max)",
+        replace: "(pdf * w + other * rest).min(max)",
+        filters: &["blend"],
+    },
 ];

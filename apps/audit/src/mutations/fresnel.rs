@@ -90,15 +90,15 @@ pub(super) const MUTATIONS: &[Mutation] = &[
     Mutation {
         fault: "internal average without η²: missing factor",
         file: "crates/brdf/src/fresnel/average.rs",
-        find: "return T::ONE - eta * eta * (T::ONE - dielectric_average(T::ONE / eta));",
-        replace: "return T::ONE - eta * (T::ONE - dielectric_average(T::ONE / eta));",
+        find: "return eta * eta * transmitted(1.0 / eta);",
+        replace: "return eta * transmitted(1.0 / eta);",
         filters: &["plastic"],
     },
     Mutation {
-        fault: "average without its Jacobian: 2t for 4t³",
+        fault: "average without its Jacobian: 2 for 4t",
         file: "crates/brdf/src/fresnel/average.rs",
-        find: "dielectric(t * t, eta) * 4.0 * t * t * t)",
-        replace: "dielectric(t * t, eta) * 2.0 * t)",
+        find: "(start + length * t * t, 4.0 * w * t))",
+        replace: "(start + length * t * t, 2.0 * w))",
         filters: &["plastic"],
     },
 ];

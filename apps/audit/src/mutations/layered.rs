@@ -66,4 +66,25 @@ pub(super) const MUTATIONS: &[Mutation] = &[
         replace: "self.transmittance[i + 1] * (T::ONE - t) + self.transmittance[i] * t",
         filters: &["rough-plastic", "TransmittanceTable"],
     },
+    Mutation {
+        fault: "20/21 for 21/20 in the matte term: inverted constant",
+        file: "crates/brdf/src/layered/coupled_interface.rs",
+        find: "C::Real::lit(21.0 / 20.0)",
+        replace: "C::Real::lit(20.0 / 21.0)",
+        filters: &["coupled"],
+    },
+    Mutation {
+        fault: "matte term of the viewer's angle alone: lost factor",
+        file: "crates/brdf/src/layered/layered_fresnel.rs",
+        find: "(self.matte * schlick_transmittance(self.r0, cos_i)).scale(C::Real::FRAC_1_PI)",
+        replace: "(self.matte * schlick_transmittance(self.r0, cos_i * cos_i)).scale(C::Real::FRAC_1_PI)",
+        filters: &["layered-fresnel"],
+    },
+    Mutation {
+        fault: "matte term without 1/π: missing factor",
+        file: "crates/brdf/src/layered/layered_linear.rs",
+        find: "self.matte.scale(C::Real::FRAC_1_PI)",
+        replace: "self.matte.scale(C::Real::ONE)",
+        filters: &["layered-linear"],
+    },
 ];

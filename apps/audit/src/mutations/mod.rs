@@ -9,6 +9,7 @@ mod diffuse;
 mod fresnel;
 mod layered;
 mod microfacet;
+mod phong;
 mod rough;
 mod sampling;
 mod smooth;
@@ -38,6 +39,7 @@ pub fn all() -> Vec<Mutation> {
         smooth::MUTATIONS,
         rough::MUTATIONS,
         layered::MUTATIONS,
+        phong::MUTATIONS,
         adapter::MUTATIONS,
     ]
     .concat()

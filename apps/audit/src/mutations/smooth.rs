@@ -59,4 +59,11 @@ pub(super) const MUTATIONS: &[Mutation] = &[
         replace: "if squared.is_nan() {",
         filters: &["half_vector", "rough-conductor"],
     },
+    Mutation {
+        fault: "absorption along the incident ray: swapped angle",
+        file: "crates/brdf/src/smooth/absorbing_slab.rs",
+        find: "let cos_t = g / self.eta;",
+        replace: "let cos_t = cos + C::Real::ZERO * g;",
+        filters: &["absorbing-slab"],
+    },
 ];
