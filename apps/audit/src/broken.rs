@@ -131,7 +131,7 @@ impl<T: Scalar> Bsdf for Mirror<T> {
     }
 
     fn sample(&self, wo: BsdfVec<Self>, u_lobe: T, _: [T; 2]) -> Option<Sample<T>> {
-        if !(wo.z() > T::ZERO) {
+        if wo.z() <= T::ZERO {
             return None;
         }
         let (eta, one) = (self.eta, T::ONE);

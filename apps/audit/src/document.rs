@@ -3,7 +3,7 @@
 //! A part stands between two lines, `<!-- begin NAME -->` and `<!-- end NAME -->`. What precedes the
 //! first marker on its line (`//! ` in documentation comments) precedes every line of the part.
 
-use std::fmt;
+use core::fmt;
 
 /// A document without the markers of a part.
 #[derive(Clone, Debug, PartialEq, Eq)]

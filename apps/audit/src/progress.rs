@@ -1,7 +1,7 @@
 //! How far a run is, on the error output.
 
+use core::sync::atomic::{AtomicUsize, Ordering};
 use core::time::Duration;
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 use crate::checks;
 use crate::run::Record;

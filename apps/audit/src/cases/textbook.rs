@@ -48,7 +48,7 @@ pub(super) fn oren_nayar(rho: f64, sigma: f64, wo: Direction, wi: Direction) -> 
     let f1 = rho / PI
         * (c1
             + cos_phi * c2 * Real::tan(beta)
-            + (1.0 - cos_phi.abs()) * c3 * Real::tan((alpha + beta) / 2.0));
+            + (1.0 - cos_phi.abs()) * c3 * Real::tan(0.5 * (alpha + beta)));
     let f2 = c4 * rho * rho / PI * (1.0 - cos_phi * Real::powi(2.0 * beta / PI, 2));
     (f1 + f2).max(0.0)
 }
@@ -181,8 +181,8 @@ impl Facets {
 /// The average internal reflectance `2 ∫ F c dc`, by the midpoint rule in `c = t²` on either side of
 /// the critical cosine.
 fn internal_average(eta: f64) -> f64 {
-    let critical = (1.0 - 1.0 / (eta * eta)).max(0.0).sqrt();
     const N: u32 = 20_000;
+    let critical = (1.0 - 1.0 / (eta * eta)).max(0.0).sqrt();
     let above: f64 = (0..N)
         .map(|i| {
             let t = (f64::from(i) + 0.5) / f64::from(N);

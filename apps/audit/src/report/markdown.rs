@@ -1,6 +1,6 @@
 //! The report as the generated part of a document.
 
-use std::fmt::Write;
+use core::fmt::Write;
 
 use etendue_brdf::registry::{Energy, MODELS};
 
@@ -133,7 +133,7 @@ fn gains(report: &Report) -> String {
     }
     let gaining = MODELS.iter().filter_map(|info| match info.energy {
         Energy::Gains { maximum, at } => Some(format!("`{}` up to {maximum} ({at})", info.name)),
-        _ => None,
+        Energy::Conserves => None,
     });
     let _ = write!(text, "\nModels that gain: {}.", gaining.collect::<Vec<_>>().join("; "));
     text

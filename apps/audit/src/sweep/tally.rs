@@ -35,7 +35,7 @@ impl Tally {
     /// Counts a number that is no value of a model.
     #[inline]
     pub(super) fn inspect(&mut self, value: f64, at: impl FnOnce() -> String) {
-        if value >= 0.0 && value < f64::INFINITY {
+        if (0.0..f64::INFINITY).contains(&value) {
             return;
         }
         if self.violations() == 0 {
