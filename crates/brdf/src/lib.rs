@@ -82,8 +82,8 @@
 //! for files and command lines, and `serde` reads such descriptions from JSON and other formats.
 //!
 //! # Non-goals
-//! No textures, no world space, no normal maps: those belong to a scene. No polarisation. No
-//! multiple scattering between facets yet: rough models lose what it would return.
+//! No textures, no world space, no normal maps: those belong to a scene. No polarisation. Rough
+//! models lose what scatters more than once between facets, but for those that say otherwise.
 #![no_std]
 #![forbid(unsafe_code)]
 #![allow(
@@ -138,7 +138,9 @@ pub use phong::{
     AshikhminShirley, AshikhminShirleyDiffuse, AshikhminShirleySampling, AshikhminShirleySpecular,
     Phong, PhongHalfVectors,
 };
-pub use rough::{Conductor, Dielectric, RoughConductor, RoughDielectric};
+pub use rough::{
+    Conductor, Dielectric, KullaContyConductor, RoughConductor, RoughDielectric, TurquinConductor,
+};
 pub use smooth::{AbsorbingSlab, Null, SmoothConductor, SmoothDielectric, ThinDielectric};
 
 /// Runs the README's example.

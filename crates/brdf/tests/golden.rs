@@ -56,7 +56,11 @@ fn row_error<T: Real>(row: &Value, answer: Option<&Answer<T>>) -> f64 {
         }
         Some(Answer::Function(Output::Direction(Some(w)))) => vector_error::<T>(row, *w),
         Some(Answer::Function(Output::Direction(None))) => {
-            if row["tir"].as_bool() == Some(true) { 0.0 } else { f64::INFINITY }
+            if row["tir"].as_bool() == Some(true) {
+                0.0
+            } else {
+                f64::INFINITY
+            }
         }
         Some(&Answer::Albedo { value, .. }) => {
             // The rows' own quadrature has an error, which they state.
@@ -71,8 +75,7 @@ fn row_error<T: Real>(row: &Value, answer: Option<&Answer<T>>) -> f64 {
 fn vector_error<T: Real>(row: &Value, got: T::Vec3) -> f64 {
     let Some(exact) = row["value"].as_array() else { return f64::INFINITY };
     let got = [got.x(), got.y(), got.z()].map(Real::to_f64);
-    let squared: f64 =
-        got.iter().zip(exact).map(|(g, e)| Real::sqr(g - e.as_f64().unwrap())).sum();
+    let squared: f64 = got.iter().zip(exact).map(|(g, e)| Real::sqr(g - e.as_f64().unwrap())).sum();
     let condition = row["cond"][1].as_f64().unwrap_or(0.0);
     squared.sqrt() / ulp32(1.0) / (1.0 + condition)
 }
@@ -84,7 +87,9 @@ fn is_acceptable<T: Real>(row: &Value, answer: Option<&Answer<T>>) -> bool {
         Some(Answer::Function(Output::Number(x))) => (x.to_f64(), 0.0),
         Some(&Answer::Albedo { value, .. }) => (value, 0.0),
         // A vector where the row expects a refusal is wrong, elsewhere it need only be finite.
-        Some(Answer::Function(Output::Direction(Some(w)) | Output::Sample { direction: w, .. })) => {
+        Some(Answer::Function(
+            Output::Direction(Some(w)) | Output::Sample { direction: w, .. },
+        )) => {
             return row["expect"] != "reject" && w.is_finite();
         }
         None | Some(Answer::Function(Output::Direction(None))) => return true,

@@ -186,7 +186,9 @@ mod tests {
             build::<f64>(model, &parameters).err().unwrap().to_string()
         };
         let none = Parameters::new;
-        assert!(message("lambrt", none()).starts_with("there is no \"lambrt\"; known are conductor, "));
+        assert!(
+            message("lambrt", none()).starts_with("there is no \"lambrt\"; known are conductor, ")
+        );
         assert_eq!(message("lambert", none()), "lambert needs the parameter \"reflectance\"");
         assert_eq!(
             message("lambert", none().with_number("albedo", 1.5)),

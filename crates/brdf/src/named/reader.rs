@@ -193,10 +193,8 @@ impl<'a> Reader<'a> {
 
     /// The form of G2, `default` unless another one is asked for.
     pub(super) fn masking(&self, default: Masking) -> Result<Masking, NamedError> {
-        let mut choices = [
-            ("height-correlated", Masking::HeightCorrelated),
-            ("separable", Masking::Separable),
-        ];
+        let mut choices =
+            [("height-correlated", Masking::HeightCorrelated), ("separable", Masking::Separable)];
         if default == Masking::Separable {
             choices.reverse();
         }

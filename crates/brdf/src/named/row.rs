@@ -102,7 +102,8 @@ impl Row {
             (Some(name), _) => function(name, &self.inputs()).map(Answer::Function),
             (None, Some(model)) => {
                 let bsdf = build::<T>(model, &self.params)?;
-                let (wi, wo) = (unit::<T>("wi", self.wi.as_ref())?, unit::<T>("wo", self.wo.as_ref())?);
+                let (wi, wo) =
+                    (unit::<T>("wi", self.wi.as_ref())?, unit::<T>("wo", self.wo.as_ref())?);
                 let (f, mut pdf) = bsdf.eval_pdf(wo, wi);
                 if MATTE_UNDER_MIRROR.contains(&model) && wo.z() > T::ZERO {
                     pdf = cosine_hemisphere::pdf::<T>(wi);
@@ -146,7 +147,10 @@ impl Row {
         let model = build::<f64>(name, &self.params)?;
         let sides = adaptive_albedo(&*model, unit::<f64>("wo", self.wo.as_ref())?, tolerance);
         let sum = sides.reflected + sides.transmitted;
-        Ok(Answer::Albedo { value: if SHEETS.contains(&name) { sides.reflected } else { sum }, sides })
+        Ok(Answer::Albedo {
+            value: if SHEETS.contains(&name) { sides.reflected } else { sum },
+            sides,
+        })
     }
 }
 

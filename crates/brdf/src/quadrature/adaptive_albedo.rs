@@ -83,7 +83,8 @@ struct Frame<T: Real> {
 impl<T: Real> Frame<T> {
     /// About the normal on the side of `wo`, or about `wo` itself.
     fn new(wo: Vec3<T>, about_wo: bool) -> Self {
-        let normal = Vec3::<T>::new(T::ZERO, T::ZERO, if wo.z() < T::ZERO { -T::ONE } else { T::ONE });
+        let normal =
+            Vec3::<T>::new(T::ZERO, T::ZERO, if wo.z() < T::ZERO { -T::ONE } else { T::ONE });
         let sin = (wo.x() * wo.x() + wo.y() * wo.y()).sqrt();
         let (x, y) = if sin > T::ZERO { (wo.x() / sin, wo.y() / sin) } else { (T::ONE, T::ZERO) };
         let across = Vec3::<T>::new(-y, x, T::ZERO);
@@ -110,7 +111,11 @@ impl<T: Real> Frame<T> {
     }
 
     fn side(&self, wi: Vec3<T>) -> Side {
-        if (wi.z() > T::ZERO) == (self.wo.z() > T::ZERO) { Side::Reflected } else { Side::Transmitted }
+        if (wi.z() > T::ZERO) == (self.wo.z() > T::ZERO) {
+            Side::Reflected
+        } else {
+            Side::Transmitted
+        }
     }
 
     /// The azimuths at a polar angle that lie on a side; the interval is symmetric about 0 or π.
@@ -286,8 +291,7 @@ mod tests {
         // From both sides, with total reflection in the tail of the lobe; Beckmann α 0.01 loses next to nothing.
         for (eta, z) in [(1.5, 0.8), (1.5, -0.8), (1.0 / 1.5, -0.8)] {
             let alpha = Alpha::new(0.01).unwrap();
-            let distribution =
-                Distribution::Beckmann { lambda: crate::BeckmannLambda::Exact };
+            let distribution = Distribution::Beckmann { lambda: crate::BeckmannLambda::Exact };
             let facets = Microfacets::new(distribution, alpha, alpha, Masking::HeightCorrelated);
             let glass = RoughDielectric::new(Ior::new(eta).unwrap(), facets).unwrap();
             let got = adaptive_albedo(&glass, DVec3::new(0.6, 0.0, z), 1e-9);
