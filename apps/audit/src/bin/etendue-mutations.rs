@@ -13,6 +13,7 @@ use std::time::{Duration, Instant};
 
 use clap::Parser;
 use etendue_audit::document::{row, with_part};
+use etendue_audit::filter::Filter;
 use etendue_audit::mutations::{self, Mutation};
 use serde_json::Value;
 
@@ -20,9 +21,9 @@ use serde_json::Value;
 #[derive(Parser)]
 #[command(version, about)]
 struct Arguments {
-    /// Only bugs whose file or description contains TEXT.
-    #[arg(long, value_name = "TEXT", default_value = "", hide_default_value = true)]
-    only: String,
+    /// Only bugs whose file or description contains TEXT; may be given several times.
+    #[arg(long, value_name = "TEXT")]
+    only: Vec<String>,
     /// Also write the table into FILE, between its lines `begin mutations` and `end mutations`.
     #[arg(long, value_name = "FILE", conflicts_with = "only")]
     markdown: Option<PathBuf>,
@@ -53,11 +54,8 @@ fn main() -> ExitCode {
 
 /// How many bugs were not found.
 fn execute(arguments: &Arguments) -> Result<usize, String> {
-    let all = mutations::all();
-    let wanted: Vec<&Mutation> = all
-        .iter()
-        .filter(|m| m.file.contains(&arguments.only) || m.fault.contains(&arguments.only))
-        .collect();
+    let (all, only) = (mutations::all(), Filter::new(&arguments.only));
+    let wanted: Vec<&Mutation> = all.iter().filter(|m| only.wants(m.file, m.fault)).collect();
     let copy = Workspace::new(arguments)?;
     copy.build()?;
     if let found @ Verdict::Found(_) = copy.audit(&[]) {
