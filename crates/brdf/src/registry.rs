@@ -97,9 +97,8 @@ pub(crate) mod parameter {
     pub(crate) const ALPHA_Y: ParameterInfo = named("alpha_y", "in [1e-8, 1e4]");
     pub(crate) const DISTRIBUTION: ParameterInfo =
         named("distribution", "GGX, Beckmann (exact or Walter's fit)");
-    pub(crate) const TABULATED_ALPHA: ParameterInfo = named("alpha", "in [1e-8, 1], isotropic");
-    pub(crate) const TABULATED: ParameterInfo =
-        named("facets", "GGX of either masking, Beckmann height-correlated and exact");
+    pub(crate) const TABULATED_ALPHA: ParameterInfo =
+        named("alpha", "in [1e-8, 1]; Beckmann height-correlated only");
     pub(crate) const MASKING: ParameterInfo = named("masking", "height-correlated, separable");
     pub(crate) const SCATTERING: ParameterInfo = named("scattering", "linear, non-linear");
     pub(crate) const INTERNAL: ParameterInfo = named("internal_reflectance", "exact, Mitsuba");

@@ -55,13 +55,8 @@ fn row_error<T: Real>(row: &Value, answer: Option<&Answer<T>>) -> f64 {
             vector_error::<T>(row, *direction).max(number(pdf.to_f64(), "pdf"))
         }
         Some(Answer::Function(Output::Direction(Some(w)))) => vector_error::<T>(row, *w),
-        Some(Answer::Function(Output::Direction(None))) => {
-            if row["tir"].as_bool() == Some(true) {
-                0.0
-            } else {
-                f64::INFINITY
-            }
-        }
+        Some(Answer::Function(Output::Direction(None))) if row["tir"] == true => 0.0,
+        Some(Answer::Function(Output::Direction(None))) => f64::INFINITY,
         Some(&Answer::Albedo { value, .. }) => {
             // The rows' own quadrature has an error, which they state.
             let (exact, error) = (row["value"].as_f64().unwrap(), row["abs_err"].as_f64().unwrap());

@@ -96,8 +96,9 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
         let middle = T::HALF * (a + b);
         let (left, right) = (self.whole([a, middle], f), self.whole([middle, b], f));
         let sum = left + right;
-        // NaN is not larger than anything.
-        if depth == 0 || !((sum - whole).abs() > tolerance) {
+        let change = (sum - whole).abs();
+        // What is not a number does not become one by halving.
+        if depth == 0 || change <= tolerance || change.is_nan() {
             return sum;
         }
         self.refine([a, middle], left, tolerance, depth - 1, f)

@@ -187,24 +187,6 @@ pub fn schlick_average<C: Spectrum>(f0: C) -> C {
     f0.map(|f| f + (C::Real::ONE - f) / C::Real::lit(21.0))
 }
 
-/// Average reflectance of a smooth conductor under diffuse light, per channel.
-///
-/// ```text
-/// F_avg = 2 ∫₀¹ F(c, η, k) c dc
-/// ```
-///
-/// # Precision
-/// Within 1e-6 for the indices of metals, 24 Gauss–Legendre nodes: for constructors.
-pub fn conductor_average<C: Spectrum>(ior: ComplexIor<C>) -> C {
-    let mut sum = C::black();
-    for (t, w) in gauss_legendre::<C::Real, 24>() {
-        // c = t²: F falls steeply from grazing. 2 c dc = 4 t³ dt.
-        let weight = w * C::Real::lit(4.0) * t * t * t;
-        sum += ior.eta().zip(ior.k(), |eta, k| weight * conductor(t * t, eta, k));
-    }
-    sum.map(|f| f.min(C::Real::ONE))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -236,6 +236,13 @@ impl<'a> Reader<'a> {
 pub(super) const DIRECTION: &str = "three finite numbers, not all 0";
 
 /// The unit vector along `w`, whatever its length; `None` where it is zero or not finite.
+///
+/// Coordinates that are those of a unit vector but for their rounding stay as they are: rounding them
+/// once more would turn the half vector of nearly opposite directions.
 pub(super) fn unit<T: Real>(w: Vec3<T>) -> Option<Vec3<T>> {
+    // A rounding of each coordinate moves the squared length by up to √3 ε.
+    if T::excess_of_squares(w.x(), w.y(), w.z()).abs() < T::TWO * T::EPSILON {
+        return Some(w);
+    }
     (w / w.x().abs().max(w.y().abs()).max(w.z().abs())).try_normalize()
 }

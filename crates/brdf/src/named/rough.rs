@@ -5,18 +5,25 @@ use alloc::boxed::Box;
 use etendue_math::Spectrum;
 
 use super::{Built, Entry, Reader};
-use crate::rough::{conductor, dielectric, rough_conductor, rough_dielectric};
-use crate::{Conductor, Dielectric, Masking, RoughConductor, RoughDielectric};
+use crate::rough::{
+    conductor, dielectric, kulla_conty, rough_conductor, rough_dielectric, turquin,
+};
+use crate::{
+    Conductor, Dielectric, KullaContyConductor, Masking, RoughConductor, RoughDielectric,
+    TurquinConductor,
+};
 
 const ISOTROPIC: &[&str] = &["alpha"];
 const BETWEEN_MEDIA: &[&str] = &["alpha", "ior_int", "ior_ext"];
 
-pub(super) fn entries<C: Spectrum>() -> [Entry<C>; 4] {
+pub(super) fn entries<C: Spectrum>() -> [Entry<C>; 6] {
     [
         Entry { info: &conductor::INFO, synonyms: ISOTROPIC, build: conductor },
         Entry { info: &dielectric::INFO, synonyms: BETWEEN_MEDIA, build: dielectric },
         Entry { info: &rough_conductor::INFO, synonyms: ISOTROPIC, build: rough_conductor },
         Entry { info: &rough_dielectric::INFO, synonyms: BETWEEN_MEDIA, build: rough_dielectric },
+        Entry { info: &kulla_conty::INFO, synonyms: &[], build: kulla_conty },
+        Entry { info: &turquin::INFO, synonyms: &[], build: turquin },
     ]
 }
 
@@ -31,6 +38,19 @@ fn conductor<C: Spectrum>(reader: &Reader) -> Built<C> {
     let (ior, widths) = (reader.complex_ior()?, reader.widths()?);
     let model = Conductor::new(ior, reader.distribution()?, widths, masking);
     let model = reader.constructed(model)?;
+    Ok(Box::new(model.with_specular_reflectance(reader.factor("specular_reflectance")?)))
+}
+
+fn kulla_conty<C: Spectrum>(reader: &Reader) -> Built<C> {
+    let facets = reader.microfacets(Masking::HeightCorrelated)?;
+    let model = KullaContyConductor::new(reader.complex_ior()?, facets);
+    let model = reader.constructed(model)?;
+    Ok(Box::new(model.with_specular_reflectance(reader.factor("specular_reflectance")?)))
+}
+
+fn turquin<C: Spectrum>(reader: &Reader) -> Built<C> {
+    let facets = reader.microfacets(Masking::HeightCorrelated)?;
+    let model = reader.constructed(TurquinConductor::new(reader.complex_ior()?, facets))?;
     Ok(Box::new(model.with_specular_reflectance(reader.factor("specular_reflectance")?)))
 }
 

@@ -157,8 +157,9 @@ pub(crate) const INFO: ModelInfo = ModelInfo {
     parameters: &[
         parameter::COMPLEX_ETA,
         parameter::K,
-        parameter::TABULATED,
+        parameter::DISTRIBUTION,
         parameter::TABULATED_ALPHA,
+        parameter::MASKING,
         parameter::KS,
     ],
     reciprocity: Reciprocity::Reciprocal,
