@@ -9,8 +9,11 @@ mod parameters;
 mod phong;
 mod rough;
 mod smooth;
+mod textbook;
 
 use etendue_brdf::registry::{MODELS, ModelInfo};
+
+pub use parameters::{Surface, surfaces};
 
 use crate::subject::Case;
 
