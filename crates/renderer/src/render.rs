@@ -1,10 +1,12 @@
 //! Rendering a whole picture on all processors.
 
+use core::marker::PhantomData;
 use core::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
 use etendue_math::Spectrum;
 use etendue_sampling::{Decision, Dimension, Independent, Sampler, Sobol};
+use etendue_scene::geometry::Task;
 use etendue_scene::material::PreparedMaterials;
 use etendue_scene::scene::SamplerKind;
 use etendue_scene::{Color, Scene};
@@ -141,7 +143,8 @@ impl<'a> Renderer<'a> {
         self.pool.broadcast(|_| {
             while !cancel.load(Ordering::Relaxed) {
                 let Some(&tile) = tiles.get(next.fetch_add(1, Ordering::Relaxed)) else { break };
-                let (pixels, statistics) = self.render_tile::<S>(&tracer, tile);
+                let task = RenderTile::<S> { renderer: self, tracer: &tracer, tile, points: PhantomData };
+                let (pixels, statistics) = self.scene.geometry.run(task);
                 // Merging is the same in any order. A poisoned lock means that `report` panicked
                 // on another thread, whose tile is complete.
                 let mut shared = rendering.lock().unwrap_or_else(PoisonError::into_inner);
@@ -164,19 +167,7 @@ impl<'a> Renderer<'a> {
         PathTracer::new(self.scene, &self.materials, &self.lights, path, strategy)
     }
 
-    fn render_tile<S: Sampler>(
-        &self,
-        tracer: &PathTracer<'_, '_>,
-        tile: Tile,
-    ) -> (Vec<Color>, Statistics) {
-        let mut statistics = Statistics::default();
-        let pixels = tile
-            .pixels()
-            .map(|pixel| self.render_pixel::<S>(tracer, pixel, &mut statistics))
-            .collect();
-        (pixels, statistics)
-    }
-
+    #[inline(always)]
     fn render_pixel<S: Sampler>(
         &self,
         tracer: &PathTracer<'_, '_>,
@@ -197,6 +188,7 @@ impl<'a> Renderer<'a> {
         sum.mean()
     }
 
+    #[inline(always)]
     fn path_sample<S: Sampler>(
         &self,
         tracer: &PathTracer<'_, '_>,
@@ -213,5 +205,27 @@ impl<'a> Renderer<'a> {
         };
         let ray = camera.ray(film.position, lens);
         tracer.radiance(ray, points, rays).scale(film.weight)
+    }
+}
+
+/// The rendering of one tile.
+struct RenderTile<'r, 'a, S> {
+    renderer: &'r Renderer<'a>,
+    tracer: &'r PathTracer<'r, 'a>,
+    tile: Tile,
+    points: PhantomData<S>,
+}
+
+impl<S: Sampler> Task for RenderTile<'_, '_, S> {
+    type Output = (Vec<Color>, Statistics);
+
+    #[inline(always)]
+    fn run(self) -> (Vec<Color>, Statistics) {
+        let mut statistics = Statistics::default();
+        let mut pixels = Vec::new();
+        for pixel in self.tile.pixels() {
+            pixels.push(self.renderer.render_pixel::<S>(self.tracer, pixel, &mut statistics));
+        }
+        (pixels, statistics)
     }
 }

@@ -14,6 +14,7 @@ use crate::statistics::RayCounts;
 
 impl PathTracer<'_, '_> {
     /// An estimate, by one light sample, of the light scattered towards the camera.
+    #[inline(always)]
     pub(super) fn direct_light<S: Sampler>(
         &self,
         vertex: &Vertex<'_, '_>,
@@ -43,7 +44,8 @@ impl PathTracer<'_, '_> {
     }
 
     /// A light sample; its density accounts for the choice of the light.
-    #[inline]
+
+    #[inline(always)]
     fn sample_light<S: Sampler>(&self, vertex: &Vertex<'_, '_>, points: &S) -> Option<LightSample> {
         let u = if self.lights.count() > 1 {
             points.sample_1d(vertex.dimension(Decision::LightChoice))
@@ -68,6 +70,7 @@ impl PathTracer<'_, '_> {
 
     /// The same direction as if drawn from the mixture of all infinite lights: what the scattered
     /// ray that leaves the scene in this direction finds, too.
+    #[inline(always)]
     fn over_all_infinite_lights(&self, receiver: &Receiver, sample: &LightSample) -> LightSample {
         LightSample {
             radiance: self.scene.background(sample.direction),
@@ -77,6 +80,7 @@ impl PathTracer<'_, '_> {
     }
 
     /// Weight of light that light sampling has found and that scattering could have found.
+    #[inline(always)]
     fn light_weight(&self, light_density: f32, scattering_density: f32) -> f32 {
         match self.strategy {
             Strategy::Mis => mis::power(light_density, scattering_density),
@@ -85,6 +89,7 @@ impl PathTracer<'_, '_> {
         }
     }
 
+    #[inline(always)]
     fn occluded(&self, point: &SurfacePoint, sample: &LightSample, rays: &mut RayCounts) -> bool {
         rays.shadow += 1;
         let ray = match sample.target {

@@ -13,6 +13,7 @@ use crate::settings::Strategy;
 
 impl PathTracer<'_, '_> {
     /// Light that the surface itself emits along the ray, weighted for how the ray was found.
+    #[inline(always)]
     pub(super) fn emitted(&self, walk: &Walk, point: &SurfacePoint) -> Color {
         let direction = walk.ray.direction;
         let Some((light, radiance)) = self.scene.emitted(point, -direction) else {
@@ -26,6 +27,7 @@ impl PathTracer<'_, '_> {
     }
 
     /// Light from infinitely far away, weighted for how the ray was found.
+    #[inline(always)]
     pub(super) fn escaped(&self, walk: &Walk) -> Color {
         let direction = walk.ray.direction;
         // A ray that ends at the far clipping plane has seen nothing yet, but only cameras have one.
@@ -41,6 +43,7 @@ impl PathTracer<'_, '_> {
     }
 
     /// Density with which light sampling draws a direction towards infinite lights.
+    #[inline(always)]
     pub(super) fn infinite_density(&self, receiver: &Receiver, direction: Vec3) -> f32 {
         let density = |&light: &LightId| {
             self.lights.probability(receiver, light, 0)
@@ -51,6 +54,7 @@ impl PathTracer<'_, '_> {
 
     /// Weight of light that a scattered ray has found and that light sampling would have found with
     /// density `light_density(receiver, position)`.
+    #[inline(always)]
     fn scattering_weight(
         &self,
         arrival: &Arrival,

@@ -135,6 +135,7 @@ impl<'a, 's> PathTracer<'a, 's> {
     /// An estimate of the radiance that arrives along a ray of the camera.
     ///
     /// Paths end after `u16::MAX` edges at the latest: random numbers have no more addresses.
+    #[inline(always)]
     pub(crate) fn radiance<S: Sampler>(
         &self,
         camera_ray: Ray,
@@ -175,6 +176,7 @@ impl<'a, 's> PathTracer<'a, 's> {
     }
 
     /// The surface that the ray meets; a camera that must not see emitters looks through them.
+    #[inline(always)]
     fn next_surface(&self, walk: &mut Walk, rays: &mut RayCounts) -> Option<SurfacePoint> {
         loop {
             let hit = self.scene.geometry.intersect(&walk.ray)?;
@@ -191,17 +193,19 @@ impl<'a, 's> PathTracer<'a, 's> {
         }
     }
 
+    #[inline(always)]
     fn hides_emitters(&self, walk: &Walk) -> bool {
         self.settings.hide_emitters && walk.view == View::Unobstructed
     }
 
+    #[inline(always)]
     fn is_emitter(&self, point: &SurfacePoint) -> bool {
         self.scene.surfaces[point.shape.0 as usize].light.is_some()
     }
 
     /// The vertex at a point; `varying` holds the reflection model where textures make it one of its
     /// own.
-    #[inline]
+    #[inline(always)]
     fn vertex<'v>(
         &'v self,
         depth: u16,

@@ -9,6 +9,7 @@ use super::{Arrival, Fate, PathTracer, Vertex, View, Walk};
 
 impl PathTracer<'_, '_> {
     /// Chooses where the path goes on, and whether it does.
+    #[inline(always)]
     pub(super) fn scatter<S: Sampler>(
         &self,
         vertex: &Vertex<'_, '_>,
@@ -46,6 +47,7 @@ impl PathTracer<'_, '_> {
 
     /// Whether strict normals forbid a direction, given in world and local coordinates: it lies on
     /// different sides of the surface and of its interpolated normal.
+    #[inline(always)]
     pub(super) fn is_inconsistent(
         &self,
         vertex: &Vertex<'_, '_>,
@@ -62,6 +64,7 @@ impl PathTracer<'_, '_> {
     /// ```
     ///
     /// η² undoes the compression of radiance inside a medium, which the way out reverses.
+    #[inline(always)]
     fn roulette<S: Sampler>(&self, vertex: &Vertex<'_, '_>, walk: &mut Walk, points: &S) -> Fate {
         let largest = walk.throughput.max_channel();
         // False for NaN, which goes on to be counted where it reaches the film.

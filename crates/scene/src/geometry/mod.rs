@@ -30,6 +30,7 @@ mod triangle;
 mod tests;
 
 pub use aabb::Aabb;
+pub use bvh::simd::Task;
 pub use builder::{GeometryBuilder, GroupId};
 pub use cylinder::Cylinder;
 pub use disk::Disk;
