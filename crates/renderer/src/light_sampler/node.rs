@@ -56,7 +56,7 @@ impl Node {
     }
 
     /// What hangs below.
-    #[inline]
+    #[inline(always)]
     pub(super) fn link(&self) -> Link {
         let index = self.link & INDEX;
         if self.link & EMITTER == 0 { Link::Pair(index) } else { Link::Emitter(index) }
@@ -78,7 +78,7 @@ impl Node {
     /// Rendering", 4th edition, section 12.6.3. Departures: the distance is limited by r² (there:
     /// by r, which depends on the unit of length), and a receiver that only reflects sees
     /// nothing behind it.
-    #[inline]
+    #[inline(never)]
     pub(super) fn importance(&self, receiver: &Receiver) -> f32 {
         // Cosines of clamped differences; a thousandth covers the rounding of all that follows.
         const GRAZING: f32 = 1e-3;

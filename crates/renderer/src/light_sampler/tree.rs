@@ -51,7 +51,7 @@ impl LightTree {
     }
 
     /// Chooses an emitter by one uniform number; `None` where none can light the receiver.
-    #[inline]
+    #[inline(always)]
     pub(super) fn choose(&self, receiver: &Receiver, mut u: f32) -> Option<Chosen> {
         let mut link = self.root_for(receiver)?.link();
         let mut probability = 1.0;
@@ -77,7 +77,7 @@ impl LightTree {
     }
 
     /// The probability with which `choose` returns `emitter`, the same bits.
-    #[inline]
+    #[inline(always)]
     pub(super) fn probability(&self, receiver: &Receiver, emitter: u32) -> f32 {
         self.try_probability(receiver, emitter).unwrap_or(0.0)
     }
@@ -98,7 +98,7 @@ impl LightTree {
 
     /// The root, if it is of any importance. A pair's importances are not asked for here: a tree of
     /// more than one emitter decides at its first pair.
-    #[inline]
+    #[inline(always)]
     fn root_for(&self, receiver: &Receiver) -> Option<&Node> {
         let root = self.root.as_ref()?;
         let decides_below = matches!(root.link(), Link::Pair(_));

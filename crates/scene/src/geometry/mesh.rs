@@ -157,7 +157,7 @@ impl TriangleMesh {
     fn compute_facets(&mut self) {
         let front = |&[i, j, k]: &[u32; 3]| {
             let indices = [i as usize, j as usize, k as usize];
-            let mut facet = Facet::of(&indices.map(|v| self.positions[v]));
+            let mut facet = Facet::of(indices.map(|v| self.positions[v]));
             let outward: Vec3 = match self.normals.as_slice() {
                 [] => facet.normal,
                 // One decision per triangle: the front must not change within it.
@@ -173,16 +173,15 @@ impl TriangleMesh {
     }
 
     /// The facet of a triangle, `triangle < self.triangles().len()`.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn facet(&self, triangle: u32) -> &Facet {
         &self.facets[triangle as usize]
     }
 
     /// The corners of a triangle, `triangle < self.triangles().len()`.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn corners(&self, triangle: u32) -> Corners {
-        let [i, j, k] = self.triangles[triangle as usize];
-        [self.positions[i as usize], self.positions[j as usize], self.positions[k as usize]]
+        self.facet(triangle).corners
     }
 
     pub(crate) fn bounds(&self) -> Aabb {
@@ -201,41 +200,39 @@ impl TriangleMesh {
     /// # Source
     /// Mitsuba 3, `Mesh::compute_surface_interaction`. There, vertex normals on the other side of
     /// the geometric one leave the two at odds; here the geometric normal follows.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn surface(&self, triangle: u32, barycentric: [f32; 2]) -> LocalSurface {
-        let [b1, b2] = barycentric;
         let facet = self.facet(triangle);
-        let corners = self.corners(triangle);
-        let (position, error) = facet.point(&corners, b1, b2);
+        let (position, error) = facet.point(barycentric);
         LocalSurface {
             position,
             error,
             normal: facet.normal,
             shading_normal: self.shading_normal(triangle, barycentric).unwrap_or(facet.normal),
             uv: self.uv(triangle, barycentric),
-            tangents: self.tangents(triangle, &corners),
+            tangents: self.tangents(triangle, &facet.corners),
             primitive: triangle,
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn shading_normal(&self, triangle: u32, [b1, b2]: [f32; 2]) -> Option<Vec3> {
-        let [n0, n1, n2] = corner_values(&self.normals, self.triangles[triangle as usize])?;
+        let [n0, n1, n2] = self.corner_values(&self.normals, triangle)?;
         let normal = Vector3::try_normalize(n0 * (1.0 - b1 - b2) + n1 * b1 + n2 * b2)?;
         Some(if self.flipped { -normal } else { normal })
     }
 
-    #[inline]
+    #[inline(always)]
     fn uv(&self, triangle: u32, [b1, b2]: [f32; 2]) -> [f32; 2] {
-        match corner_values(&self.uvs, self.triangles[triangle as usize]) {
+        match self.corner_values(&self.uvs, triangle) {
             Some([t0, t1, t2]) => (t0 * (1.0 - b1 - b2) + t1 * b1 + t2 * b2).to_array(),
             None => [b1, b2],
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn tangents(&self, triangle: u32, [v0, v1, v2]: &Corners) -> Option<[Vec3; 2]> {
-        let [t0, t1, t2] = corner_values(&self.uvs, self.triangles[triangle as usize])?;
+        let [t0, t1, t2] = self.corner_values(&self.uvs, triangle)?;
         let (d1, d2) = (t1 - t0, t2 - t0);
         let (e1, e2) = (*v1 - *v0, *v2 - *v0);
         let scale = 1.0 / (d1.x * d2.y - d1.y * d2.x);
@@ -244,12 +241,21 @@ impl TriangleMesh {
         (du.is_finite() && dv.is_finite()).then_some([du, dv])
     }
 
+    /// What the mesh knows of the three corners; `None` where it knows nothing of the kind.
+    #[inline(always)]
+    fn corner_values<T: Copy>(&self, values: &[T], triangle: u32) -> Option<[T; 3]> {
+        if values.is_empty() {
+            return None;
+        }
+        let [i, j, k] = self.triangles[triangle as usize];
+        Some([values[i as usize], values[j as usize], values[k as usize]])
+    }
+
     /// The same point as a sample of the triangle's area.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn at(&self, triangle: u32, barycentric: [f32; 2]) -> ShapeSample {
-        let [b1, b2] = barycentric;
         let facet = self.facet(triangle);
-        let (position, error) = facet.point(&self.corners(triangle), b1, b2);
+        let (position, error) = facet.point(barycentric);
         ShapeSample {
             position,
             error,
@@ -258,15 +264,6 @@ impl TriangleMesh {
             pdf_area: if facet.area > 0.0 { 1.0 / facet.area } else { 0.0 },
         }
     }
-}
-
-/// What a mesh knows of the three corners; `None` for a mesh that knows nothing of the kind.
-#[inline]
-fn corner_values<T: Copy>(values: &[T], [i, j, k]: [u32; 3]) -> Option<[T; 3]> {
-    if values.is_empty() {
-        return None;
-    }
-    Some([values[i as usize], values[j as usize], values[k as usize]])
 }
 
 #[cfg(test)]

@@ -15,7 +15,7 @@ use etendue_math::glam::Vec3;
 ///
 /// # Source
 /// Pharr, Jakob, Humphreys, "Physically Based Rendering", 4th ed., section 6.8.6.
-#[inline]
+#[inline(always)]
 pub fn offset_point(position: Vec3, error: Vec3, normal: Vec3, direction: Vec3) -> Vec3 {
     let distance = normal.abs().dot(error);
     let shift = normal * distance.copysign(direction.dot(normal));
@@ -31,7 +31,7 @@ pub fn offset_point(position: Vec3, error: Vec3, normal: Vec3, direction: Vec3) 
 ///
 /// The distance to the next float is at most `2⁻²³ |x|`, or `2⁻¹⁴⁹` near 0. Unlike counting the bits
 /// up or down, this takes no branch on two signs that are as good as random.
-#[inline]
+#[inline(always)]
 fn away(x: f32, shift: f32) -> f32 {
     let step = (x.abs() * f32::EPSILON + f32::MIN_POSITIVE).copysign(shift);
     if shift == 0.0 { x } else { x + step }

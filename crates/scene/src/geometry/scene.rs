@@ -5,6 +5,7 @@ use core::ops::Range;
 
 use super::bvh::simd::{Backend, Kernel, Simd, Task};
 use super::bvh::{Bvh, Found, Objects, PreparedRay, TriangleRef};
+use super::surface::LocalSurface;
 use super::{Aabb, GeometryBuilder, Ray, Shape, ShapeId, SurfacePoint, Transform, triangle};
 
 /// Shapes, groups and instances, ready for rays.
@@ -59,6 +60,15 @@ impl GeometryStatistics {
 struct Instance {
     group: u32,
     transform: Transform,
+}
+
+impl Instance {
+    /// The point of a shape of the group that a ray of the world has hit. Out of line, so that the
+    /// shapes of the world do not pay for it.
+    #[inline(never)]
+    fn surface(&self, shape: &Shape, ray: &Ray, hit: &Hit) -> LocalSurface {
+        shape.surface(&self.transform.inverse_ray(ray), hit).transformed(&self.transform)
+    }
 }
 
 /// One hierarchy: the world, or a group.
@@ -132,7 +142,7 @@ impl Geometry {
     }
 
     /// The closest hit at `0 < t < t_max`.
-    #[inline]
+    #[inline(always)]
     pub fn intersect(&self, ray: &Ray) -> Option<Hit> {
         if !ray.is_valid() {
             return None;
@@ -148,7 +158,7 @@ impl Geometry {
     }
 
     /// Whether anything is hit at `0 < t < t_max`.
-    #[inline]
+    #[inline(always)]
     pub fn occluded(&self, ray: &Ray) -> bool {
         ray.is_valid() && self.backend.run(Occluded { geometry: self, ray })
     }
@@ -157,16 +167,14 @@ impl Geometry {
     ///
     /// # Panics
     /// A hit of another geometry may name shapes and triangles that do not exist here.
-    #[inline]
+    #[inline(always)]
     pub fn surface_point(&self, ray: &Ray, hit: &Hit) -> SurfacePoint {
         let shape = &self.shapes[hit.shape.0 as usize];
-        match self.instances.get(hit.instance as usize) {
-            Some(Instance { transform, .. }) => {
-                shape.surface(&transform.inverse_ray(ray), hit).transformed(transform)
-            }
+        let local = match self.instances.get(hit.instance as usize) {
             None => shape.surface(ray, hit),
-        }
-        .on(hit.shape)
+            Some(instance) => instance.surface(shape, ray, hit),
+        };
+        local.on(hit.shape)
     }
 
     /// Every shape, those of groups included, in the order in which they were added.

@@ -39,7 +39,7 @@ impl Seen {
 
 impl Shape {
     /// Whether points of a primitive are drawn uniformly in area, without a look at its solid angle.
-    #[inline]
+    #[inline(always)]
     fn is_sampled_by_area(&self, primitive: u32, reference: Vec3) -> bool {
         match self {
             // Points on the wall see the inside whether rounding has put them inside or outside.
@@ -103,7 +103,7 @@ impl Shape {
     /// assert!((1.0 / pdf - 4.0 * std::f32::consts::PI / 6.0).abs() < 1e-5);
     /// # Ok::<(), etendue_scene::geometry::ShapeError>(())
     /// ```
-    #[inline]
+    #[inline(always)]
     pub fn sample_from(
         &self,
         primitive: u32,
@@ -176,7 +176,7 @@ impl Shape {
 /// In the Cornell box, where a third of all light samples lie between one and two sides away, the
 /// relative squared error is one or two percent larger than with twice the distance, and the time a
 /// tenth less.
-#[inline]
+#[inline(always)]
 fn looks_small<const N: usize>(longest_squared: f32, corners: &[Vec3; N]) -> bool {
     // Written so that NaN is not small.
     corners.iter().all(|c| longest_squared < c.length_squared())

@@ -57,7 +57,7 @@ impl LocalSurface {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     pub(crate) fn on(self, shape: ShapeId) -> SurfacePoint {
         let (shading, [dp_du, dp_dv]) = match self.tangents {
             Some([du, dv]) => (Frame::from_normal_and_tangent(self.shading_normal, du), [du, dv]),
@@ -82,24 +82,24 @@ impl LocalSurface {
 
 impl SurfacePoint {
     /// A ray without end that leaves the surface to the side of `direction`.
-    #[inline]
+    #[inline(always)]
     pub fn spawn(&self, direction: Vec3) -> Ray {
         Ray::new(self.offset_towards(direction), direction)
     }
 
     /// The segment from here to a point that lies on no surface, or was moved off it already.
-    #[inline]
+    #[inline(always)]
     pub fn spawn_to(&self, target: Vec3) -> Ray {
         Ray::between(self.offset_towards(target - self.position), target)
     }
 
     /// The segment from here to a sampled point of another surface, which it does not touch.
-    #[inline]
+    #[inline(always)]
     pub fn spawn_to_sample(&self, sample: &ShapeSample) -> Ray {
         self.spawn_to(sample.seen_from(self.position))
     }
 
-    #[inline]
+    #[inline(always)]
     fn offset_towards(&self, direction: Vec3) -> Vec3 {
         offset_point(self.position, self.error, self.normal, direction)
     }
