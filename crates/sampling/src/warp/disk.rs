@@ -21,17 +21,13 @@ pub(crate) fn concentric<T: Real>([u, v]: [T; 2]) -> DiskPoint<T> {
     let (a, b) = (T::TWO * u - T::ONE, T::TWO * v - T::ONE);
     // 1 − |a| and 1 − |b| from the uniforms themselves, where they are exact.
     let [rim_a, rim_b] = [u, v].map(|u| T::TWO * u.min(T::ONE - u));
-    let quarter_pi = T::lit(0.25) * T::PI;
-    // |a| > |b|, which rounding of a and b could not tell near the corners.
-    let (r, rim, x, y) = if rim_a < rim_b {
-        let (sin, cos) = (quarter_pi * (b / a)).sin_cos();
-        (a, rim_a, a * cos, a * sin)
-    } else if b != T::ZERO {
-        let (sin, cos) = (quarter_pi * (a / b)).sin_cos();
-        (b, rim_b, b * sin, b * cos)
-    } else {
-        (T::ZERO, T::ONE, T::ZERO, T::ZERO)
-    };
+    // |a| > |b|, which rounding of a and b could not tell near the corners. Choices of numbers
+    // instead of two branches: which of them it is, is as good as random.
+    let wide = rim_a < rim_b;
+    let (r, across, rim) = if wide { (a, b, rim_a) } else { (b, a, rim_b) };
+    let ratio = if r == T::ZERO { T::ZERO } else { across / r };
+    let (sin, cos) = ratio.sin_cos_eighth_turn();
+    let (x, y) = if wide { (r * cos, r * sin) } else { (r * sin, r * cos) };
     DiskPoint { x, y, radius_squared: r * r, one_minus_radius_squared: rim * (T::ONE + r.abs()) }
 }
 

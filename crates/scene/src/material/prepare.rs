@@ -55,7 +55,7 @@ impl Materials {
     /// side.
     ///
     /// A material that does not exist is [`Material::Null`].
-    #[inline]
+    #[inline(never)]
     pub fn prepare(
         &self,
         id: MaterialId,

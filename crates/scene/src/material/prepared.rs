@@ -31,8 +31,16 @@ impl Side {
 /// other side, two-sided materials are black.
 #[derive(Clone, Copy, Debug)]
 pub struct PreparedBsdf<'a> {
-    inner: Mask<Placed<'a>>,
+    cover: Cover<'a>,
+    lobes: Lobes,
     chooses_lobe: bool,
+}
+
+/// How much of the surface is there.
+#[derive(Clone, Copy, Debug)]
+enum Cover<'a> {
+    Whole(Placed<'a>),
+    Partial(Mask<Placed<'a>>),
 }
 
 /// A model with its own front on one side of the surface.
@@ -71,12 +79,12 @@ impl Bsdf for Placed<'_> {
         self.model.pdf(self.place(wo), self.place(wi))
     }
 
-    #[inline]
+    #[inline(always)]
     fn eval_pdf(&self, wo: Vec3, wi: Vec3) -> (Color, f32) {
         self.model.eval_pdf(self.place(wo), self.place(wi))
     }
 
-    #[inline]
+    #[inline(always)]
     fn sample(&self, wo: Vec3, u_lobe: f32, u: [f32; 2]) -> Option<Sample<Color>> {
         let sample = self.model.sample(self.place(wo), u_lobe, u)?;
         Some(Sample { wi: self.place(sample.wi), ..sample })
@@ -90,14 +98,18 @@ impl Bsdf for Placed<'_> {
 
 impl<'a> PreparedBsdf<'a> {
     #[inline]
-    pub(super) fn new(inner: Placed<'a>, opacity: f32) -> Self {
-        let chooses_lobe = opacity < 1.0 || inner.model.chooses_lobe();
-        Self { inner: Mask::new(inner, Opacity::clamped(opacity)), chooses_lobe }
+    pub(super) fn new(placed: Placed<'a>, opacity: f32) -> Self {
+        if opacity < 1.0 {
+            let masked = Mask::new(placed, Opacity::clamped(opacity));
+            return Self { lobes: masked.lobes(), chooses_lobe: true, cover: Cover::Partial(masked) };
+        }
+        let chooses_lobe = placed.model.chooses_lobe();
+        Self { lobes: placed.lobes(), chooses_lobe, cover: Cover::Whole(placed) }
     }
 
     /// Whether [`sample`](Bsdf::sample) depends on `u_lobe`; where not, no number need be drawn for
     /// it.
-    #[inline]
+    #[inline(always)]
     pub fn chooses_lobe(&self) -> bool {
         self.chooses_lobe
     }
@@ -106,33 +118,48 @@ impl<'a> PreparedBsdf<'a> {
 impl Bsdf for PreparedBsdf<'_> {
     type Color = Color;
 
-    #[inline]
+    #[inline(always)]
     fn lobes(&self) -> Lobes {
-        self.inner.lobes()
+        self.lobes
     }
 
     #[inline]
     fn eval(&self, wo: Vec3, wi: Vec3) -> Color {
-        self.inner.eval(wo, wi)
+        match &self.cover {
+            Cover::Whole(placed) => placed.eval(wo, wi),
+            Cover::Partial(masked) => masked.eval(wo, wi),
+        }
     }
 
     #[inline]
     fn pdf(&self, wo: Vec3, wi: Vec3) -> f32 {
-        self.inner.pdf(wo, wi)
+        match &self.cover {
+            Cover::Whole(placed) => placed.pdf(wo, wi),
+            Cover::Partial(masked) => masked.pdf(wo, wi),
+        }
     }
 
-    #[inline]
+    #[inline(always)]
     fn eval_pdf(&self, wo: Vec3, wi: Vec3) -> (Color, f32) {
-        self.inner.eval_pdf(wo, wi)
+        match &self.cover {
+            Cover::Whole(placed) => placed.eval_pdf(wo, wi),
+            Cover::Partial(masked) => masked.eval_pdf(wo, wi),
+        }
     }
 
-    #[inline]
+    #[inline(always)]
     fn sample(&self, wo: Vec3, u_lobe: f32, u: [f32; 2]) -> Option<Sample<Color>> {
-        self.inner.sample(wo, u_lobe, u)
+        match &self.cover {
+            Cover::Whole(placed) => placed.sample(wo, u_lobe, u),
+            Cover::Partial(masked) => masked.sample(wo, u_lobe, u),
+        }
     }
 
     #[inline]
     fn albedo(&self, wo: Vec3) -> Option<Color> {
-        self.inner.albedo(wo)
+        match &self.cover {
+            Cover::Whole(placed) => placed.albedo(wo),
+            Cover::Partial(masked) => masked.albedo(wo),
+        }
     }
 }
