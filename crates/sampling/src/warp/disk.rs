@@ -16,7 +16,7 @@ pub(crate) struct DiskPoint<T> {
 }
 
 /// Concentric squares to concentric circles.
-#[inline]
+#[inline(always)]
 pub(crate) fn concentric<T: Real>([u, v]: [T; 2]) -> DiskPoint<T> {
     let (a, b) = (T::TWO * u - T::ONE, T::TWO * v - T::ONE);
     // 1 − |a| and 1 − |b| from the uniforms themselves, where they are exact.

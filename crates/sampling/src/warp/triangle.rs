@@ -24,7 +24,7 @@ use super::{accurate_cross, into_unit};
 /// use etendue_sampling::warp::triangle;
 /// assert_eq!(triangle::from_square([0.5_f32, 0.5]), [0.25, 0.25, 0.5]);
 /// ```
-#[inline]
+#[inline(always)]
 pub fn from_square<T: Real>([u, v]: [T; 2]) -> [T; 3] {
     let (b0, b1) = if v > u {
         let half = T::HALF * u;
