@@ -6,7 +6,7 @@ use std::sync::{Mutex, PoisonError};
 
 use etendue_math::Spectrum;
 use etendue_sampling::{Decision, Dimension, Independent, Sampler, Sobol};
-use etendue_scene::geometry::Task;
+use etendue_scene::geometry::{Rays, Task};
 use etendue_scene::material::PreparedMaterials;
 use etendue_scene::scene::SamplerKind;
 use etendue_scene::{Color, Scene};
@@ -109,7 +109,7 @@ impl<'a> Renderer<'a> {
     fn sample_with<S: Sampler>(&self, pixel: [u32; 2], index: u32) -> Color {
         let points = S::at(self.settings.seed, pixel, u64::from(index));
         let filter = self.filter.pixel(pixel);
-        self.path_sample(&self.tracer(), &filter, &points, &mut RayCounts::default())
+        self.path_sample(&self.tracer(&self.scene.geometry), &filter, &points, &mut RayCounts::default())
     }
 
     /// Renders the given tiles, in this order.
@@ -133,7 +133,6 @@ impl<'a> Renderer<'a> {
         cancel: &AtomicBool,
     ) -> Rendering {
         let crop = &self.scene.film.crop;
-        let tracer = self.tracer();
         let next = AtomicUsize::new(0);
         let rendering = Mutex::new(Rendering {
             image: Image::black(crop.size),
@@ -143,7 +142,7 @@ impl<'a> Renderer<'a> {
         self.pool.broadcast(|_| {
             while !cancel.load(Ordering::Relaxed) {
                 let Some(&tile) = tiles.get(next.fetch_add(1, Ordering::Relaxed)) else { break };
-                let task = RenderTile::<S> { renderer: self, tracer: &tracer, tile, points: PhantomData };
+                let task = RenderTile::<S> { renderer: self, tile, points: PhantomData };
                 let (pixels, statistics) = self.scene.geometry.run(task);
                 // Merging is the same in any order. A poisoned lock means that `report` panicked
                 // on another thread, whose tile is complete.
@@ -162,15 +161,15 @@ impl<'a> Renderer<'a> {
         rendering.into_inner().unwrap_or_else(PoisonError::into_inner)
     }
 
-    fn tracer(&self) -> PathTracer<'_, 'a> {
+    fn tracer<R: Rays>(&self, rays: R) -> PathTracer<'_, 'a, R> {
         let RenderSettings { path, strategy, .. } = self.settings;
-        PathTracer::new(self.scene, &self.materials, &self.lights, path, strategy)
+        PathTracer::new(rays, self.scene, &self.materials, &self.lights, path, strategy)
     }
 
     #[inline(always)]
-    fn render_pixel<S: Sampler>(
+    fn render_pixel<S: Sampler, R: Rays>(
         &self,
-        tracer: &PathTracer<'_, '_>,
+        tracer: &PathTracer<'_, '_, R>,
         pixel: [u32; 2],
         statistics: &mut Statistics,
     ) -> Color {
@@ -189,9 +188,9 @@ impl<'a> Renderer<'a> {
     }
 
     #[inline(always)]
-    fn path_sample<S: Sampler>(
+    fn path_sample<S: Sampler, R: Rays>(
         &self,
-        tracer: &PathTracer<'_, '_>,
+        tracer: &PathTracer<'_, '_, R>,
         filter: &PixelFilter<'_>,
         points: &S,
         rays: &mut RayCounts,
@@ -211,7 +210,6 @@ impl<'a> Renderer<'a> {
 /// The rendering of one tile.
 struct RenderTile<'r, 'a, S> {
     renderer: &'r Renderer<'a>,
-    tracer: &'r PathTracer<'r, 'a>,
     tile: Tile,
     points: PhantomData<S>,
 }
@@ -220,11 +218,12 @@ impl<S: Sampler> Task for RenderTile<'_, '_, S> {
     type Output = (Vec<Color>, Statistics);
 
     #[inline(always)]
-    fn run(self) -> (Vec<Color>, Statistics) {
+    fn run<R: Rays>(self, rays: R) -> (Vec<Color>, Statistics) {
+        let tracer = self.renderer.tracer(rays);
         let mut statistics = Statistics::default();
         let mut pixels = Vec::new();
         for pixel in self.tile.pixels() {
-            pixels.push(self.renderer.render_pixel::<S>(self.tracer, pixel, &mut statistics));
+            pixels.push(self.renderer.render_pixel::<S, R>(&tracer, pixel, &mut statistics));
         }
         (pixels, statistics)
     }

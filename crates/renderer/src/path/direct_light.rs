@@ -4,7 +4,7 @@ use etendue_brdf::{Bsdf, Density};
 use etendue_math::Spectrum;
 use etendue_sampling::{Decision, Sampler, mis};
 use etendue_scene::Color;
-use etendue_scene::geometry::SurfacePoint;
+use etendue_scene::geometry::{Rays, SurfacePoint};
 use etendue_scene::light::LightSample;
 
 use super::{LightSampling, PathTracer, Several, Vertex};
@@ -12,7 +12,7 @@ use crate::light_sampler::Receiver;
 use crate::settings::Strategy;
 use crate::statistics::RayCounts;
 
-impl PathTracer<'_, '_> {
+impl<R: Rays> PathTracer<'_, '_, R> {
     /// An estimate, by one light sample, of the light scattered towards the camera.
     #[inline(always)]
     pub(super) fn direct_light<S: Sampler>(
@@ -96,6 +96,6 @@ impl PathTracer<'_, '_> {
             Some(target) => point.spawn_to(target),
             None => point.spawn(sample.direction),
         };
-        self.scene.geometry.occluded(&ray)
+        self.rays.occluded(&ray)
     }
 }

@@ -4,14 +4,14 @@ use etendue_math::Spectrum;
 use etendue_math::glam::Vec3;
 use etendue_sampling::mis;
 use etendue_scene::Color;
-use etendue_scene::geometry::SurfacePoint;
+use etendue_scene::geometry::{Rays, SurfacePoint};
 use etendue_scene::light::LightId;
 
 use super::{Arrival, PathTracer, Walk};
 use crate::light_sampler::Receiver;
 use crate::settings::Strategy;
 
-impl PathTracer<'_, '_> {
+impl<R: Rays> PathTracer<'_, '_, R> {
     /// Light that the surface itself emits along the ray, weighted for how the ray was found.
     #[inline(always)]
     pub(super) fn emitted(&self, walk: &Walk, point: &SurfacePoint) -> Color {

@@ -4,10 +4,11 @@ use etendue_brdf::{Bsdf, Density};
 use etendue_math::Spectrum;
 use etendue_math::glam::Vec3;
 use etendue_sampling::{Decision, Sampler};
+use etendue_scene::geometry::Rays;
 
 use super::{Arrival, Fate, PathTracer, Vertex, View, Walk};
 
-impl PathTracer<'_, '_> {
+impl<R: Rays> PathTracer<'_, '_, R> {
     /// Chooses where the path goes on, and whether it does.
     #[inline(always)]
     pub(super) fn scatter<S: Sampler>(

@@ -26,13 +26,9 @@ use super::{accurate_cross, into_unit};
 /// ```
 #[inline(always)]
 pub fn from_square<T: Real>([u, v]: [T; 2]) -> [T; 3] {
-    let (b0, b1) = if v > u {
-        let half = T::HALF * u;
-        (half, v - half)
-    } else {
-        let half = T::HALF * v;
-        (u - half, half)
-    };
+    // Without a branch, which would be as good as random.
+    let half = T::HALF * u.min(v);
+    let (b0, b1) = if v > u { (half, v - half) } else { (u - half, half) };
     [b0, b1, (T::ONE - b0 - b1).max(T::ZERO)]
 }
 

@@ -34,7 +34,7 @@ pub fn offset_point(position: Vec3, error: Vec3, normal: Vec3, direction: Vec3) 
 #[inline(always)]
 fn away(x: f32, shift: f32) -> f32 {
     let step = (x.abs() * f32::EPSILON + f32::MIN_POSITIVE).copysign(shift);
-    if shift == 0.0 { x } else { x + step }
+    x + if shift == 0.0 { 0.0 } else { step }
 }
 
 #[cfg(test)]

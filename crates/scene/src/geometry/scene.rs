@@ -3,7 +3,7 @@
 use alloc::vec::Vec;
 use core::ops::Range;
 
-use super::bvh::simd::{Backend, Kernel, Simd, Task};
+use super::bvh::simd::{Backend, Kernel, Simd};
 use super::bvh::{Bvh, Found, Objects, PreparedRay, TriangleRef};
 use super::surface::LocalSurface;
 use super::{Aabb, GeometryBuilder, Ray, Shape, ShapeId, SurfacePoint, Transform, triangle};
@@ -134,20 +134,26 @@ impl Geometry {
         Self { shapes, instances, groups, top, backend: Backend::detect() }
     }
 
-    /// Runs a task that traces rays through this geometry, compiled for the processor's best
-    /// instructions; its results are the same to the bit without.
+    /// The closest hit at `0 < t < t_max`.
     #[inline]
-    pub fn run<T: Task>(&self, task: T) -> T::Output {
-        self.backend.run_task(task)
+    pub fn intersect(&self, ray: &Ray) -> Option<Hit> {
+        self.backend.run(Closest { geometry: self, ray })
     }
 
-    /// The closest hit at `0 < t < t_max`.
+    /// Whether anything is hit at `0 < t < t_max`.
+    #[inline]
+    pub fn occluded(&self, ray: &Ray) -> bool {
+        self.backend.run(Occluded { geometry: self, ray })
+    }
+
     #[inline(always)]
-    pub fn intersect(&self, ray: &Ray) -> Option<Hit> {
+    pub(super) fn intersect_with<S: Simd>(&self, simd: S, ray: &Ray) -> Option<Hit> {
         if !ray.is_valid() {
             return None;
         }
-        let found = self.backend.run(Closest { geometry: self, ray });
+        let mut found = Found::nothing_before(ray.t_max);
+        let objects = World { geometry: self, ray };
+        self.top.bvh.closest(simd, &PreparedRay::new(simd, ray), &objects, &mut found);
         (found.shape != u32::MAX).then_some(Hit {
             t: found.t,
             uv: found.uv,
@@ -157,10 +163,11 @@ impl Geometry {
         })
     }
 
-    /// Whether anything is hit at `0 < t < t_max`.
     #[inline(always)]
-    pub fn occluded(&self, ray: &Ray) -> bool {
-        ray.is_valid() && self.backend.run(Occluded { geometry: self, ray })
+    pub(super) fn occluded_with<S: Simd>(&self, simd: S, ray: &Ray) -> bool {
+        let objects = World { geometry: self, ray };
+        ray.is_valid()
+            && self.top.bvh.occluded(simd, &PreparedRay::new(simd, ray), &objects, ray.t_max)
     }
 
     /// What is at a hit that [`intersect`](Self::intersect) of this geometry has found for this ray.
@@ -206,15 +213,11 @@ struct Closest<'a> {
 }
 
 impl Kernel for Closest<'_> {
-    type Output = Found;
+    type Output = Option<Hit>;
 
     #[inline(always)]
-    fn run<S: Simd>(self, simd: S) -> Found {
-        let Self { geometry, ray } = self;
-        let mut found = Found::nothing_before(ray.t_max);
-        let objects = World { geometry, ray };
-        geometry.top.bvh.closest(simd, &PreparedRay::new(simd, ray), &objects, &mut found);
-        found
+    fn run<S: Simd>(self, simd: S) -> Option<Hit> {
+        self.geometry.intersect_with(simd, self.ray)
     }
 }
 
@@ -229,9 +232,7 @@ impl Kernel for Occluded<'_> {
 
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) -> bool {
-        let Self { geometry, ray } = self;
-        let objects = World { geometry, ray };
-        geometry.top.bvh.occluded(simd, &PreparedRay::new(simd, ray), &objects, ray.t_max)
+        self.geometry.occluded_with(simd, self.ray)
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::binary::MAX_DEPTH;
 use super::node::{Child, Content, Node};
-use super::simd::{Kernel, Simd, Stack};
+use super::simd::{Kernel, Memory, Simd, Stack};
 use super::{Bvh, LANES, PreparedRay, boxes, triangles};
 
 /// The closest hit so far.
@@ -43,7 +43,7 @@ fn entry(distance: f32, child: Child) -> u64 {
 
 /// The next child that is entered at `t_max` or before.
 #[inline(always)]
-fn pop(stack: &mut Stack<u64, CAPACITY>, t_max: f32) -> Option<Child> {
+fn pop(stack: &mut Stack<'_, u64, CAPACITY>, t_max: f32) -> Option<Child> {
     while let Some(entry) = stack.pop() {
         if f32::from_bits((entry >> 32) as u32) <= t_max {
             return Some(Child::from_bits(entry as u32));
@@ -58,7 +58,7 @@ fn pop(stack: &mut Stack<u64, CAPACITY>, t_max: f32) -> Option<Child> {
 /// and what comes next is loaded while the distances are still on their way.
 #[inline(always)]
 fn push_all_but_nearest(
-    stack: &mut Stack<u64, CAPACITY>,
+    stack: &mut Stack<'_, u64, CAPACITY>,
     node: &Node,
     mask: u32,
     distances: &[f32; LANES],
@@ -82,7 +82,7 @@ fn push_all_but_nearest(
 
 /// Moves the last entry down into the descending ones above `bottom`.
 #[inline(always)]
-fn sift(stack: &mut Stack<u64, CAPACITY>, bottom: usize) {
+fn sift(stack: &mut Stack<'_, u64, CAPACITY>, bottom: usize) {
     let entries = &mut stack.as_mut_slice()[bottom..];
     let mut i = entries.len() - 1;
     while i > 0 && entries[i - 1] < entries[i] {
@@ -113,7 +113,8 @@ impl Bvh {
         objects: &O,
         found: &mut Found,
     ) {
-        let mut stack = Stack::<u64, CAPACITY>::new();
+        let mut memory = Memory::<u64, CAPACITY>::new();
+        let mut stack = Stack::new(&mut memory);
         let mut next = Some(Child::new(Content::Node(0)));
         while let Some(child) = next {
             match child.content() {
@@ -146,7 +147,8 @@ impl Bvh {
         objects: &O,
         t_max: f32,
     ) -> bool {
-        let mut stack = Stack::<Child, CAPACITY>::new();
+        let mut memory = Memory::<Child, CAPACITY>::new();
+        let mut stack = Stack::new(&mut memory);
         let mut next = Some(Child::new(Content::Node(0)));
         while let Some(child) = next {
             let hit = match child.content() {

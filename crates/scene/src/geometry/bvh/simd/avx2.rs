@@ -7,7 +7,7 @@ use core::arch::x86_64::{
     _mm256_set1_ps, _mm256_storeu_ps, _mm256_sub_ps,
 };
 
-use super::{Kernel, LANES, Simd, Task};
+use super::{Kernel, LANES, Simd};
 
 /// Proof that the processor has AVX2 and BMI1/2: only [`detect`](Self::detect) makes one.
 #[derive(Clone, Copy, Debug)]
@@ -32,13 +32,6 @@ impl Avx2 {
         // SAFETY: `self` proves that the processor has the features.
         unsafe { run(self, kernel) }
     }
-
-    /// Compiles and runs a task with the instructions.
-    #[inline]
-    pub(super) fn run_task<T: Task>(self, task: T) -> T::Output {
-        // SAFETY: `self` proves that the processor has the features.
-        unsafe { run_task(task) }
-    }
 }
 
 // Not `fma`: nothing here may be fused, and a compiler that cannot fuse will not.
@@ -46,11 +39,6 @@ impl Avx2 {
 #[target_feature(enable = "avx2,bmi1,bmi2")]
 fn run<K: Kernel>(simd: Avx2, kernel: K) -> K::Output {
     kernel.run(simd)
-}
-
-#[target_feature(enable = "avx2,bmi1,bmi2")]
-fn run_task<T: Task>(task: T) -> T::Output {
-    task.run()
 }
 
 impl Simd for Avx2 {

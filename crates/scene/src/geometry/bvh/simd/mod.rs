@@ -13,7 +13,7 @@ mod stack;
 
 use super::LANES;
 
-pub(super) use stack::Stack;
+pub(super) use stack::{Memory, Stack};
 
 /// Operations on eight floats. A value of an implementing type is the proof that the processor has
 /// the instructions.
@@ -53,18 +53,6 @@ pub(in crate::geometry) trait Simd: Copy {
 pub(in crate::geometry) trait Kernel {
     type Output;
     fn run<S: Simd>(self, simd: S) -> Self::Output;
-}
-
-/// Work that traces many rays, such as a tile of a picture.
-///
-/// [`Geometry::run`](crate::geometry::Geometry::run) compiles it for the processor's best
-/// instructions. Its `run` must be `#[inline(always)]`, and so should be what it spends its time in:
-/// a function that is called instead is compiled for the target's baseline.
-pub trait Task {
-    /// What comes of it.
-    type Output;
-    /// Does it.
-    fn run(self) -> Self::Output;
 }
 
 /// The implementations; found out once, when a geometry is built.
@@ -115,17 +103,6 @@ impl Backend {
             Self::Sse2(simd) => kernel.run(simd),
             #[cfg(target_arch = "x86_64")]
             Self::Avx2(simd) => simd.run(kernel),
-        }
-    }
-
-    /// Runs a task as code of its own with the instructions, in which rays are traced without a
-    /// change of instruction set.
-    #[inline]
-    pub(in crate::geometry) fn run_task<T: Task>(self, task: T) -> T::Output {
-        match self {
-            #[cfg(target_arch = "x86_64")]
-            Self::Avx2(simd) => simd.run_task(task),
-            _ => task.run(),
         }
     }
 }
