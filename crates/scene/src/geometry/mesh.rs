@@ -191,10 +191,10 @@ impl TriangleMesh {
     /// The point of a triangle with the barycentric weights `b₁, b₂` of its later corners.
     ///
     /// ```text
-    /// ∂p/∂u = (Δv₂ e₁ − Δv₁ e₂)/D,  ∂p/∂v = (Δu₁ e₂ − Δu₂ e₁)/D,  D = Δu₁ Δv₂ − Δv₁ Δu₂
+    /// ∂p/∂u = (Δv₂ e₁ − Δv₁ e₂)/D,  D = Δu₁ Δv₂ − Δv₁ Δu₂
     /// ```
     ///
-    /// Without texture coordinates, `(u, v) = (b₁, b₂)` and the tangents are any two that are
+    /// Without texture coordinates, `(u, v) = (b₁, b₂)` and the tangent is any that is
     /// orthogonal to the normal.
     ///
     /// # Source
@@ -210,7 +210,7 @@ impl TriangleMesh {
             normal: facet.normal,
             shading_normal: self.shading_normal(triangle, barycentric).unwrap_or(facet.normal),
             uv: self.uv(triangle, barycentric),
-            tangents: self.tangents(triangle, &facet.corners),
+            tangent: self.tangent(triangle, &facet.corners),
             primitive: triangle,
         }
     }
@@ -231,14 +231,12 @@ impl TriangleMesh {
     }
 
     #[inline(always)]
-    fn tangents(&self, triangle: u32, [v0, v1, v2]: &Corners) -> Option<[Vec3; 2]> {
+    fn tangent(&self, triangle: u32, [v0, v1, v2]: &Corners) -> Option<Vec3> {
         let [t0, t1, t2] = self.corner_values(&self.uvs, triangle)?;
         let (d1, d2) = (t1 - t0, t2 - t0);
         let (e1, e2) = (*v1 - *v0, *v2 - *v0);
         let scale = 1.0 / (d1.x * d2.y - d1.y * d2.x);
-        let du = (e1 * d2.y - e2 * d1.y) * scale;
-        let dv = (e2 * d1.x - e1 * d2.x) * scale;
-        (du.is_finite() && dv.is_finite()).then_some([du, dv])
+        Some((e1 * d2.y - e2 * d1.y) * scale).filter(|du| du.is_finite())
     }
 
     /// What the mesh knows of the three corners; `None` where it knows nothing of the kind.
@@ -320,15 +318,15 @@ mod tests {
     }
 
     #[test]
-    fn tangents_follow_the_texture_coordinates() {
+    fn the_tangent_follows_the_texture_coordinates() {
         let uvs = vec![Vec2::ZERO, Vec2::new(0.0, 0.5), Vec2::new(-2.0, 0.0)];
         let p = one(vec![], uvs).surface(0, [0.5, 0.25]);
         assert_eq!(p.uv, [-0.5, 0.25]);
-        assert_eq!(p.tangents, Some([Vec3::Y * -0.5, Vec3::X * 2.0]));
-        // All three vertices at one place of the texture: any tangents will do.
+        assert_eq!(p.tangent, Some(Vec3::Y * -0.5));
+        // All three vertices at one place of the texture: any tangent will do.
         let p = one(vec![], vec![Vec2::ONE; 3]).surface(0, [0.5, 0.25]);
-        assert_eq!(p.tangents, None);
+        assert_eq!(p.tangent, None);
         let p = p.on(ShapeId(0));
-        assert!(p.dp_du.is_finite() && p.dp_du.dot(p.normal) == 0.0);
+        assert!(p.shading.s.is_finite() && p.shading.s.dot(p.normal) == 0.0);
     }
 }

@@ -56,6 +56,7 @@ impl Rectangle {
         Aabb::from_points(self.corners)
     }
 
+    #[inline(always)]
     pub(crate) fn surface(&self, half: u32, [b1, b2]: [f32; 2]) -> LocalSurface {
         let (position, error) = self.half(half).point([b1, b2]);
         let [uv0, uv1, uv2] = match half {
@@ -69,7 +70,7 @@ impl Rectangle {
             normal: self.normal,
             shading_normal: self.normal,
             uv: core::array::from_fn(|i| b0 * uv0[i] + b1 * uv1[i] + b2 * uv2[i]),
-            tangents: Some([self.corners[1] - self.corners[0], self.corners[3] - self.corners[0]]),
+            tangent: Some(self.corners[1] - self.corners[0]),
             primitive: 0,
         }
     }

@@ -62,12 +62,19 @@ struct Instance {
     transform: Transform,
 }
 
-impl Instance {
-    /// The point of a shape of the group that a ray of the world has hit. Out of line, so that the
-    /// shapes of the world do not pay for it.
-    #[inline(never)]
-    fn surface(&self, shape: &Shape, ray: &Ray, hit: &Hit) -> LocalSurface {
-        shape.surface(&self.transform.inverse_ray(ray), hit).transformed(&self.transform)
+/// The point of any shape, in a group or not. Out of line, so that meshes do not pay for it.
+#[inline(never)]
+fn local_surface(
+    shape: &Shape,
+    instance: Option<&Instance>,
+    ray: &Ray,
+    hit: &Hit,
+) -> LocalSurface {
+    match instance {
+        None => shape.surface(ray, hit),
+        Some(Instance { transform, .. }) => {
+            shape.surface(&transform.inverse_ray(ray), hit).transformed(transform)
+        }
     }
 }
 
@@ -177,11 +184,14 @@ impl Geometry {
     #[inline(always)]
     pub fn surface_point(&self, ray: &Ray, hit: &Hit) -> SurfacePoint {
         let shape = &self.shapes[hit.shape.0 as usize];
-        let local = match self.instances.get(hit.instance as usize) {
-            None => shape.surface(ray, hit),
-            Some(instance) => instance.surface(shape, ray, hit),
-        };
-        local.on(hit.shape)
+        match (shape, self.instances.get(hit.instance as usize)) {
+            (Shape::Mesh(mesh), None) => mesh.surface(hit.primitive, hit.uv).on(hit.shape),
+            (Shape::Rectangle(rectangle), None) => {
+                rectangle.surface(hit.primitive, hit.uv).on(hit.shape)
+            }
+            // Only now made a point, so that those above need not be where this one is returned.
+            (shape, instance) => local_surface(shape, instance, ray, hit).on(hit.shape),
+        }
     }
 
     /// Every shape, those of groups included, in the order in which they were added.

@@ -153,7 +153,6 @@ impl Shape {
     }
 
     /// The point that a ray in the shape's own space has hit.
-    #[inline(always)]
     pub(crate) fn surface(&self, ray: &Ray, hit: &Hit) -> LocalSurface {
         match self {
             Self::Mesh(s) => s.surface(hit.primitive, hit.uv),

@@ -79,7 +79,7 @@ impl Materials {
                 Side::Back => back,
             });
         }
-        PreparedBsdf::new(Placed { model: model(material, at), front: placed_on }, opacity)
+        PreparedBsdf::new(Placed::new(model(material, at), placed_on), opacity)
     }
 }
 

@@ -1,7 +1,6 @@
 //! What a surface does to light at one point.
 
 use etendue_brdf::{Bsdf, Lobes, Mask, Opacity, Sample};
-use etendue_math::Vector3;
 use etendue_math::glam::Vec3;
 
 use super::Model;
@@ -47,17 +46,25 @@ enum Cover<'a> {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Placed<'a> {
     pub(super) model: Model<'a>,
-    /// Where the model's front is.
-    pub(super) front: Side,
+    /// 1 where the model's front is that of the surface, −1 where it is its back.
+    up: f32,
 }
 
-impl Placed<'_> {
+impl<'a> Placed<'a> {
+    #[inline]
+    pub(super) fn new(model: Model<'a>, front: Side) -> Self {
+        let up = match front {
+            Side::Front => 1.0,
+            Side::Back => -1.0,
+        };
+        Self { model, up }
+    }
+
+    /// A direction as the model sees it, or the other way round.
     #[inline(always)]
     fn place(&self, w: Vec3) -> Vec3 {
-        match self.front {
-            Side::Front => w,
-            Side::Back => w.flip_z(),
-        }
+        // An exact product instead of a branch.
+        Vec3::new(w.x, w.y, w.z * self.up)
     }
 }
 
