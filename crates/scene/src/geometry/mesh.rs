@@ -172,6 +172,12 @@ impl TriangleMesh {
         self.facets = self.triangles.iter().map(front).collect();
     }
 
+    /// One facet per triangle.
+    #[inline(always)]
+    pub(crate) fn facets(&self) -> &[Facet] {
+        &self.facets
+    }
+
     /// The facet of a triangle, `triangle < self.triangles().len()`.
     #[inline(always)]
     pub(crate) fn facet(&self, triangle: u32) -> &Facet {

@@ -40,9 +40,9 @@ impl Ray {
     pub(crate) fn is_valid(&self) -> bool {
         // Zero times what is not finite is NaN, and a comparison with NaN is false: six tests in
         // one, and a NaN t_max is refused as well.
-        self.origin * 0.0 + self.direction * 0.0 == Vec3::ZERO
-            && self.direction != Vec3::ZERO
-            && self.t_max > 0.0
+        let zero = self.origin * 0.0 + self.direction * 0.0;
+        let Vec3 { x, y, z } = self.direction.abs();
+        zero.x + zero.y + zero.z == 0.0 && x.max(y).max(z) > 0.0 && self.t_max > 0.0
     }
 }
 

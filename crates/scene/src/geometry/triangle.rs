@@ -69,7 +69,9 @@ impl Facet {
     /// ```
     #[inline(always)]
     pub(crate) fn point(&self, [b1, b2]: [f32; 2]) -> (Vec3, Vec3) {
-        let [v0, v1, v2] = self.corners.map(Vec3::as_dvec3);
+        // One by one: `map` is not always inlined.
+        let [v0, v1, v2] = self.corners;
+        let (v0, v1, v2) = (v0.as_dvec3(), v1.as_dvec3(), v2.as_dvec3());
         let p = v0 + (v1 - v0) * f64::from(b1) + (v2 - v0) * f64::from(b2);
         let p = p.as_vec3();
         (p, p.abs() * U as f32 + Vec3::splat(self.error))

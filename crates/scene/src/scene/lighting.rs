@@ -31,12 +31,26 @@ impl Scene {
         reference: &SurfacePoint,
         u: [f32; 2],
     ) -> Option<LightSample> {
-        let from = reference.position;
-        match self.lights.get(light.0 as usize)? {
+        // `?` takes apart what the longer way returns, so that the result need not be in memory.
+        Some(match self.lights.get(light.0 as usize)? {
             Light::Area(area) => {
                 let shape = self.shape_of(*area);
-                area.sample(shape, &self.textures, primitive, from, u)
+                area.sample(shape, &self.textures, primitive, reference.position, u)?
             }
+            light => self.sample_without_surface(light, reference.position, u)?,
+        })
+    }
+
+    /// The same for a light that is no shape; out of line, so that area lights do not pay for it.
+    #[inline(never)]
+    fn sample_without_surface(
+        &self,
+        light: &Light,
+        from: Vec3,
+        u: [f32; 2],
+    ) -> Option<LightSample> {
+        match light {
+            Light::Area(_) => None,
             Light::Point(light) => light.sample(from),
             Light::Spot(light) => light.sample(from, &self.textures),
             Light::Directional(light) => light.sample(),

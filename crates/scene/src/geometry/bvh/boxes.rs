@@ -9,9 +9,8 @@ use crate::geometry::Ray;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct BoxRay<F> {
     origin: [F; 3],
-    /// Reciprocals of the direction, shrunk for where boxes begin, stretched for where they end.
-    to_near: [F; 3],
-    to_far: [F; 3],
+    /// Reciprocals of the direction.
+    inverse: [F; 3],
     /// For each axis, which of its two rows in [`Node::bounds`] the ray meets first.
     near: [usize; 3],
 }
@@ -34,11 +33,9 @@ impl<F: Copy> BoxRay<F> {
         let (x, y, z) = (1.0 / x, 1.0 / y, 1.0 / z);
         // The sign of the reciprocal, so that −0 selects the rows that fit its −∞.
         let row = |inverse: f32| usize::from(inverse.is_sign_negative());
-        let (shrink, stretch) = (1.0 - WIDEN, 1.0 + WIDEN);
         Self {
             origin: [simd.splat(ray.origin.x), simd.splat(ray.origin.y), simd.splat(ray.origin.z)],
-            to_near: [simd.splat(x * shrink), simd.splat(y * shrink), simd.splat(z * shrink)],
-            to_far: [simd.splat(x * stretch), simd.splat(y * stretch), simd.splat(z * stretch)],
+            inverse: [simd.splat(x), simd.splat(y), simd.splat(z)],
             near: [row(x), row(y), row(z)],
         }
     }
@@ -47,7 +44,7 @@ impl<F: Copy> BoxRay<F> {
 /// Which boxes the ray meets before `t_max`, as a mask, and a lower bound on where it enters them.
 ///
 /// ```text
-/// t₀ = max(0, max over axes of (near − o) · (1 − w)/d),  t₁ = min(t_max, min of (far − o) · (1 + w)/d)
+/// t₀ = (1 − w) max(0, max over axes of (near − o)/d),  t₁ = (1 + w) min(t_max, min of (far − o)/d)
 /// met where t₀ ≤ t₁
 /// ```
 ///
@@ -66,8 +63,12 @@ pub(super) fn entered<S: Simd>(
         let (near, far) = (ray.near[axis] & 1, (ray.near[axis] ^ 1) & 1);
         let near = simd.sub(simd.load(&node.bounds[axis][near]), ray.origin[axis]);
         let far = simd.sub(simd.load(&node.bounds[axis][far]), ray.origin[axis]);
-        enter = simd.max(simd.mul(near, ray.to_near[axis]), enter);
-        leave = simd.min(simd.mul(far, ray.to_far[axis]), leave);
+        enter = simd.max(simd.mul(near, ray.inverse[axis]), enter);
+        leave = simd.min(simd.mul(far, ray.inverse[axis]), leave);
     }
+    // Once for all axes: a negative end of the interval, which stretching makes worse, is no hit
+    // either way.
+    let enter = simd.mul(enter, simd.splat(1.0 - WIDEN));
+    let leave = simd.mul(leave, simd.splat(1.0 + WIDEN));
     (simd.bits(simd.le(enter, leave)), simd.store(enter))
 }
