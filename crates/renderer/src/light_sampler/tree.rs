@@ -61,15 +61,13 @@ impl LightTree {
                 Link::Pair(index) => {
                     let pair = &self.pairs[index as usize];
                     let [first, second] = pair.shares(receiver)?;
-                    if u < first {
-                        link = pair.nodes()[0].link();
-                        probability *= first;
-                        u /= first;
-                    } else {
-                        link = pair.nodes()[1].link();
-                        probability *= second;
-                        u = (u - first) / second;
-                    }
+                    // Exact products with 0 and 1 choose: a branch would be as good as random.
+                    let left = if u < first { 1.0 } else { 0.0 };
+                    let right = 1.0 - left;
+                    let share = first * left + second * right;
+                    link = pair.nodes()[usize::from(u >= first)].link();
+                    probability *= share;
+                    u = (u - first * right) / share;
                     u = u.min(f32::ONE_MINUS_EPSILON);
                 }
             }

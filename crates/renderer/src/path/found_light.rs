@@ -19,27 +19,39 @@ impl<R: Rays> PathTracer<'_, '_, R> {
         let Some((light, radiance)) = self.scene.emitted(point, -direction) else {
             return Color::black();
         };
-        let weight = self.scattering_weight(&walk.arrival, |receiver, from| {
+        radiance * self.weight_of_hit(walk.arrival, light, *point)
+    }
+
+    /// Out of line, and everything by value: few rays find a light, and a reference would keep what
+    /// all of them carry in memory.
+    #[inline(never)]
+    fn weight_of_hit(&self, arrival: Arrival, light: LightId, point: SurfacePoint) -> f32 {
+        self.scattering_weight(&arrival, |receiver| {
             self.lights.probability(receiver, light, point.primitive)
-                * self.scene.light_pdf_hit(light, from, point)
-        });
-        radiance * weight
+                * self.scene.light_pdf_hit(light, receiver.position, &point)
+        })
     }
 
     /// Light from infinitely far away, weighted for how the ray was found.
     #[inline(always)]
     pub(super) fn escaped(&self, walk: &Walk) -> Color {
-        let direction = walk.ray.direction;
         // A ray that ends at the far clipping plane has seen nothing yet, but only cameras have one.
         if self.hides_emitters(walk) || self.scene.infinite_lights().is_empty() {
             return Color::black();
         }
+        let (radiance, weight) = self.background(walk.arrival, walk.ray.direction);
+        radiance * weight
+    }
+
+    /// What infinite lights send, and its weight; out of line, because it ends the path.
+    #[inline(never)]
+    fn background(&self, arrival: Arrival, direction: Vec3) -> (Color, f32) {
         let radiance = self.scene.background(direction);
         if radiance.is_black() {
-            return radiance;
+            return (radiance, 0.0);
         }
-        let density = |receiver: &Receiver, _| self.infinite_density(receiver, direction);
-        radiance * self.scattering_weight(&walk.arrival, density)
+        let density = |receiver: &Receiver| self.infinite_density(receiver, direction);
+        (radiance, self.scattering_weight(&arrival, density))
     }
 
     /// Density with which light sampling draws a direction towards infinite lights.
@@ -53,18 +65,18 @@ impl<R: Rays> PathTracer<'_, '_, R> {
     }
 
     /// Weight of light that a scattered ray has found and that light sampling would have found with
-    /// density `light_density(receiver, position)`.
+    /// density `light_density(receiver)`.
     #[inline(always)]
     fn scattering_weight(
         &self,
         arrival: &Arrival,
-        light_density: impl FnOnce(&Receiver, Vec3) -> f32,
+        light_density: impl FnOnce(&Receiver) -> f32,
     ) -> f32 {
         match (arrival, self.strategy) {
             (Arrival::Certain, _) | (_, Strategy::BsdfOnly) => 1.0,
             (_, Strategy::LightOnly) => 0.0,
-            (Arrival::Scattered { receiver, position, density }, Strategy::Mis) => {
-                mis::power(*density, light_density(receiver, *position))
+            (Arrival::Scattered { receiver, density }, Strategy::Mis) => {
+                mis::power(*density, light_density(receiver))
             }
         }
     }

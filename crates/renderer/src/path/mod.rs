@@ -64,7 +64,7 @@ enum Arrival {
     /// By the camera or a delta lobe: light sampling could not have found the same light.
     Certain,
     /// Scattered at a surface, with a density per steradian.
-    Scattered { receiver: Receiver, position: Vec3, density: f32 },
+    Scattered { receiver: Receiver, density: f32 },
 }
 
 /// What of the camera's view has been crossed so far.

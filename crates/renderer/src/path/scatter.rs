@@ -28,11 +28,9 @@ impl<R: Rays> PathTracer<'_, '_, R> {
         walk.eta *= sample.eta;
         walk.arrival = match sample.density {
             Density::Delta(_) => Arrival::Certain,
-            Density::Continuous(density) => Arrival::Scattered {
-                receiver: vertex.receiver,
-                position: vertex.point.position,
-                density,
-            },
+            Density::Continuous(density) => {
+                Arrival::Scattered { receiver: vertex.receiver, density }
+            }
         };
         // A pass-through is the one delta direction that goes straight on.
         if !(matches!(sample.density, Density::Delta(_)) && sample.wi == -vertex.wo) {

@@ -20,14 +20,19 @@ pub(crate) struct DiskPoint<T> {
 pub(crate) fn concentric<T: Real>([u, v]: [T; 2]) -> DiskPoint<T> {
     let (a, b) = (T::TWO * u - T::ONE, T::TWO * v - T::ONE);
     // 1 − |a| and 1 − |b| from the uniforms themselves, where they are exact.
-    let [rim_a, rim_b] = [u, v].map(|u| T::TWO * u.min(T::ONE - u));
-    // |a| > |b|, which rounding of a and b could not tell near the corners. Choices of numbers
-    // instead of two branches: which of them it is, is as good as random.
-    let wide = rim_a < rim_b;
-    let (r, across, rim) = if wide { (a, b, rim_a) } else { (b, a, rim_b) };
+    let (rest_u, rest_v) = (T::ONE - u, T::ONE - v);
+    let rim_a = T::TWO * if u < rest_u { u } else { rest_u };
+    let rim_b = T::TWO * if v < rest_v { v } else { rest_v };
+    // |a| > |b|, which rounding of a and b could not tell near the corners. Exact products with 0 and
+    // 1 choose: a branch would be as good as random.
+    let wide = if rim_a < rim_b { T::ONE } else { T::ZERO };
+    let high = T::ONE - wide;
+    let (r, across) = (a * wide + b * high, b * wide + a * high);
+    let rim = if rim_a < rim_b { rim_a } else { rim_b };
     let ratio = if r == T::ZERO { T::ZERO } else { across / r };
     let (sin, cos) = ratio.sin_cos_eighth_turn();
-    let (x, y) = if wide { (r * cos, r * sin) } else { (r * sin, r * cos) };
+    let (along, across) = (r * cos, r * sin);
+    let (x, y) = (along * wide + across * high, across * wide + along * high);
     DiskPoint { x, y, radius_squared: r * r, one_minus_radius_squared: rim * (T::ONE + r.abs()) }
 }
 

@@ -26,9 +26,10 @@ use super::{accurate_cross, into_unit};
 /// ```
 #[inline(always)]
 pub fn from_square<T: Real>([u, v]: [T; 2]) -> [T; 3] {
-    // Without a branch, which would be as good as random.
-    let half = T::HALF * u.min(v);
-    let (b0, b1) = if v > u { (half, v - half) } else { (u - half, half) };
+    // The smaller one less its half is that half: both cases in one, because a branch on which one
+    // is smaller would be as good as random.
+    let half = T::HALF * if v > u { u } else { v };
+    let (b0, b1) = (u - half, v - half);
     [b0, b1, (T::ONE - b0 - b1).max(T::ZERO)]
 }
 

@@ -43,10 +43,9 @@ impl TriangleMesh {
     /// does not exist.
     #[inline(always)]
     fn looks_small(&self, triangle: u32, reference: Vec3) -> bool {
-        self.facets().get(triangle as usize).is_some_and(|facet| {
-            let [a, b, c] = facet.corners;
-            looks_small(facet.longest_squared, &[a - reference, b - reference, c - reference])
-        })
+        let Some(facet) = self.facets().get(triangle as usize) else { return false };
+        let [a, b, c] = facet.corners;
+        looks_small(facet.longest_squared, &[a - reference, b - reference, c - reference])
     }
 
     /// [`Shape::sample_from`] for a triangle that looks small.

@@ -93,18 +93,21 @@ macro_rules! forward_bsdf {
 
             #[inline(always)]
             fn eval_pdf(&self, wo: Vec3, wi: Vec3) -> (Color, f32) {
-                match self {
+                // Taken apart and put together again, here and by `?` below: what is returned from
+                // here is not where the calls return it, and need not be in memory.
+                let (f, pdf) = match self {
                     Self::$first(model) => model.eval_pdf(wo, wi),
                     others => others.eval_pdf_of_others(wo, wi),
-                }
+                };
+                (f, pdf)
             }
 
             #[inline(always)]
             fn sample(&self, wo: Vec3, u_lobe: f32, u: [f32; 2]) -> Option<Sample<Color>> {
-                match self {
-                    Self::$first(model) => model.sample(wo, u_lobe, u),
-                    others => others.sample_of_others(wo, u_lobe, u),
-                }
+                Some(match self {
+                    Self::$first(model) => model.sample(wo, u_lobe, u)?,
+                    others => others.sample_of_others(wo, u_lobe, u)?,
+                })
             }
 
             #[inline]

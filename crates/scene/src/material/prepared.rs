@@ -150,16 +150,16 @@ impl Bsdf for PreparedBsdf<'_> {
     fn eval_pdf(&self, wo: Vec3, wi: Vec3) -> (Color, f32) {
         match &self.cover {
             Cover::Whole(placed) => placed.eval_pdf(wo, wi),
-            Cover::Partial(masked) => masked.eval_pdf(wo, wi),
+            Cover::Partial(masked) => eval_pdf_of_partial(masked, wo, wi),
         }
     }
 
     #[inline(always)]
     fn sample(&self, wo: Vec3, u_lobe: f32, u: [f32; 2]) -> Option<Sample<Color>> {
-        match &self.cover {
-            Cover::Whole(placed) => placed.sample(wo, u_lobe, u),
-            Cover::Partial(masked) => masked.sample(wo, u_lobe, u),
-        }
+        Some(match &self.cover {
+            Cover::Whole(placed) => placed.sample(wo, u_lobe, u)?,
+            Cover::Partial(masked) => sample_partial(masked, wo, u_lobe, u)?,
+        })
     }
 
     #[inline]
@@ -169,4 +169,20 @@ impl Bsdf for PreparedBsdf<'_> {
             Cover::Partial(masked) => masked.albedo(wo),
         }
     }
+}
+
+/// Out of line, as the longer models are.
+#[inline(never)]
+fn eval_pdf_of_partial(masked: &Mask<Placed>, wo: Vec3, wi: Vec3) -> (Color, f32) {
+    masked.eval_pdf(wo, wi)
+}
+
+#[inline(never)]
+fn sample_partial(
+    masked: &Mask<Placed>,
+    wo: Vec3,
+    u_lobe: f32,
+    u: [f32; 2],
+) -> Option<Sample<Color>> {
+    masked.sample(wo, u_lobe, u)
 }
