@@ -41,8 +41,8 @@ impl Ray {
         // Zero times what is not finite is NaN, and a comparison with NaN is false: six tests in
         // one, and a NaN t_max is refused as well.
         let zero = self.origin * 0.0 + self.direction * 0.0;
-        let Vec3 { x, y, z } = self.direction.abs();
-        zero.x + zero.y + zero.z == 0.0 && x.max(y).max(z) > 0.0 && self.t_max > 0.0
+        let size = self.direction.abs();
+        zero.x + zero.y + zero.z == 0.0 && size.x + size.y + size.z > 0.0 && self.t_max > 0.0
     }
 }
 
