@@ -60,14 +60,12 @@ impl LightTree {
                 Link::Emitter(emitter) => return Some(Chosen { emitter, probability }),
                 Link::Pair(index) => {
                     let pair = &self.pairs[index as usize];
-                    let [first, second] = pair.shares(receiver)?;
-                    // Exact products with 0 and 1 choose: a branch would be as good as random.
-                    let left = if u < first { 1.0 } else { 0.0 };
-                    let right = 1.0 - left;
-                    let share = first * left + second * right;
-                    link = pair.nodes()[usize::from(u >= first)].link();
-                    probability *= share;
-                    u = (u - first * right) / share;
+                    let shares = pair.shares(receiver)?;
+                    // Looked up: a branch would be as good as random.
+                    let side = usize::from(u >= shares[0]);
+                    link = pair.nodes()[side].link();
+                    probability *= shares[side];
+                    u = (u - [0.0, shares[0]][side]) / shares[side];
                     u = u.min(f32::ONE_MINUS_EPSILON);
                 }
             }

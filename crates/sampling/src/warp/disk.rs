@@ -23,16 +23,16 @@ pub(crate) fn concentric<T: Real>([u, v]: [T; 2]) -> DiskPoint<T> {
     let (rest_u, rest_v) = (T::ONE - u, T::ONE - v);
     let rim_a = T::TWO * if u < rest_u { u } else { rest_u };
     let rim_b = T::TWO * if v < rest_v { v } else { rest_v };
-    // |a| > |b|, which rounding of a and b could not tell near the corners. Exact products with 0 and
-    // 1 choose: a branch would be as good as random.
-    let wide = if rim_a < rim_b { T::ONE } else { T::ZERO };
-    let high = T::ONE - wide;
-    let (r, across) = (a * wide + b * high, b * wide + a * high);
-    let rim = if rim_a < rim_b { rim_a } else { rim_b };
-    let ratio = if r == T::ZERO { T::ZERO } else { across / r };
+    // |a| > |b|, which rounding of a and b could not tell near the corners. The order is looked up:
+    // a branch would be as good as random.
+    let (order, rim) = if rim_a < rim_b { (0, rim_a) } else { (1, rim_b) };
+    let longer_first = [a, b, a];
+    let (r, other) = (longer_first[order], longer_first[order + 1]);
+    let ratio = if r == T::ZERO { T::ZERO } else { other / r };
     let (sin, cos) = ratio.sin_cos_eighth_turn();
     let (along, across) = (r * cos, r * sin);
-    let (x, y) = (along * wide + across * high, across * wide + along * high);
+    let x_first = [along, across, along];
+    let (x, y) = (x_first[order], x_first[order + 1]);
     DiskPoint { x, y, radius_squared: r * r, one_minus_radius_squared: rim * (T::ONE + r.abs()) }
 }
 
