@@ -162,31 +162,41 @@ impl Bvh {
         objects: &O,
         t_max: f32,
     ) -> bool {
-        let mut memory = Memory::<Child, CAPACITY>::new();
+        // Nodes left for one of their children, and which others are still to visit. In any order:
+        // sorting costs more than it finds sooner.
+        let mut memory = Memory::<(u32, u32), { MAX_DEPTH + 2 }>::new();
         let mut stack = Stack::new(&mut memory);
-        let mut next = Some(Child::new(Content::Node(0)));
-        while let Some(child) = next {
-            let hit = match child.content() {
-                Content::Node(index) => {
-                    let node = &self.nodes[index as usize];
-                    let (mask, _) = boxes::entered(simd, node, &ray.boxes, t_max);
-                    // In any order: sorting costs more than it finds sooner.
-                    for lane in lanes(mask) {
-                        stack.push(node.children[lane]);
+        let mut index = 0;
+        'nodes: loop {
+            let mut node = &self.nodes[index as usize];
+            let (mut mask, _) = boxes::entered(simd, node, &ray.boxes, t_max);
+            loop {
+                if mask == 0 {
+                    let Some(left) = stack.pop() else { return false };
+                    (index, mask) = left;
+                    node = &self.nodes[index as usize];
+                }
+                let lane = mask.trailing_zeros() as usize & (LANES - 1);
+                mask &= mask.wrapping_sub(1);
+                let hit = match node.children[lane].content() {
+                    Content::Node(child) => {
+                        if mask != 0 {
+                            stack.push((index, mask));
+                        }
+                        index = child;
+                        continue 'nodes;
                     }
-                    false
+                    Content::Block(block) => {
+                        let block = &self.blocks[block as usize];
+                        triangles::any(simd, block, &ray.triangles, t_max)
+                    }
+                    Content::Object(object) => simd.call(Occluded { objects, object, t_max }),
+                };
+                if hit {
+                    return true;
                 }
-                Content::Block(index) => {
-                    triangles::any(simd, &self.blocks[index as usize], &ray.triangles, t_max)
-                }
-                Content::Object(object) => simd.call(Occluded { objects, object, t_max }),
-            };
-            if hit {
-                return true;
             }
-            next = stack.pop();
         }
-        false
     }
 }
 
