@@ -78,12 +78,17 @@ impl Node {
     /// Rendering", 4th edition, section 12.6.3. Departures: the distance is limited by r² (there:
     /// by r, which depends on the unit of length), and a receiver that only reflects sees
     /// nothing behind it.
-    // Out of line, and the receiver by value: a reference would keep it in memory on every path.
+    #[inline(always)]
+    pub(super) fn importance(&self, receiver: &Receiver) -> f32 {
+        self.importance_at(receiver.position, receiver.normal, receiver.sides)
+    }
+
+    /// Out of line, and not by reference, which would keep the receiver in memory on every path.
     #[inline(never)]
-    pub(super) fn importance(&self, receiver: Receiver) -> f32 {
+    fn importance_at(&self, position: Vec3, normal: Vec3, sides: Sides) -> f32 {
         // Cosines of clamped differences; a thousandth covers the rounding of all that follows.
         const GRAZING: f32 = 1e-3;
-        let to_cluster = self.centre - receiver.position;
+        let to_cluster = self.centre - position;
         let distance_squared = to_cluster.length_squared();
         let radius_squared = self.radius * self.radius;
         if distance_squared <= radius_squared || distance_squared < f32::MIN_POSITIVE {
@@ -99,8 +104,8 @@ impl Node {
         if emission.cos < self.cos_emission - GRAZING {
             return 0.0;
         }
-        let cos_i = direction.dot(receiver.normal);
-        let cos_i = if receiver.sides == Sides::Both { cos_i.abs() } else { cos_i };
+        let cos_i = direction.dot(normal);
+        let cos_i = if sides == Sides::Both { cos_i.abs() } else { cos_i };
         let incident = Angle::from_cos(cos_i).minus(bound);
         if incident.cos < -GRAZING {
             return 0.0;
@@ -159,7 +164,7 @@ mod tests {
     fn a_point_light_is_worth_cosine_over_squared_distance() {
         let node = Node::new(&Cluster::point(Vec3::new(0.0, 0.0, 2.0), 0.5), Link::Emitter(0));
         let n = Vec3::new(0.6, 0.0, 0.8);
-        let importance = node.importance(receiver(Vec3::ZERO, n, Sides::Front));
+        let importance = node.importance(&receiver(Vec3::ZERO, n, Sides::Front));
         // A few roundings.
         assert!((importance - 0.5 * 0.8 / 4.0).abs() < 1e-6);
     }
@@ -169,7 +174,7 @@ mod tests {
         let patch = Cluster::patch(Vec3::new(0.0, 0.0, 5.0), 0.1, -Vec3::Z, 1.0);
         let node = Node::new(&patch, Link::Emitter(0));
         let at = |z: f32, normal, sides| {
-            node.importance(receiver(Vec3::new(0.0, 0.0, z), normal, sides))
+            node.importance(&receiver(Vec3::new(0.0, 0.0, z), normal, sides))
         };
         assert!(at(0.0, Vec3::Z, Sides::Front) > 0.0);
         assert_eq!(at(0.0, -Vec3::Z, Sides::Front), 0.0);
@@ -180,7 +185,7 @@ mod tests {
     #[test]
     fn importance_is_finite_on_top_of_a_light() {
         let node = Node::new(&Cluster::point(Vec3::ONE, 1.0), Link::Emitter(0));
-        let importance = node.importance(receiver(Vec3::ONE, Vec3::Z, Sides::Front));
+        let importance = node.importance(&receiver(Vec3::ONE, Vec3::Z, Sides::Front));
         assert!(importance.is_finite() && importance > 0.0);
     }
 }

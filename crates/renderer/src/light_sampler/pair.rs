@@ -57,7 +57,7 @@ impl Pair {
                 return panel.shares(receiver, to_panel, distance_squared);
             }
         }
-        let [a, b] = [self.nodes[0].importance(*receiver), self.nodes[1].importance(*receiver)];
+        let [a, b] = [self.nodes[0].importance(receiver), self.nodes[1].importance(receiver)];
         match (a > 0.0, b > 0.0) {
             (true, true) => Some(split(a, b)),
             (true, false) => Some([1.0, 0.0]),

@@ -98,7 +98,7 @@ impl LightTree {
     fn root_for(&self, receiver: &Receiver) -> Option<&Node> {
         let root = self.root.as_ref()?;
         let decides_below = matches!(root.link(), Link::Pair(_));
-        (decides_below || root.importance(*receiver) > 0.0).then_some(root)
+        (decides_below || root.importance(receiver) > 0.0).then_some(root)
     }
 }
 

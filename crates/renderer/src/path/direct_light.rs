@@ -2,6 +2,7 @@
 
 use etendue_brdf::{Bsdf, Density};
 use etendue_math::Spectrum;
+use etendue_math::glam::Vec3;
 use etendue_sampling::{Decision, Sampler, mis};
 use etendue_scene::Color;
 use etendue_scene::geometry::{Rays, SurfacePoint};
@@ -44,7 +45,6 @@ impl<R: Rays> PathTracer<'_, '_, R> {
     }
 
     /// A light sample; its density accounts for the choice of the light.
-
     #[inline(always)]
     fn sample_light<S: Sampler>(&self, vertex: &Vertex<'_, '_>, points: &S) -> Option<LightSample> {
         let u = if self.lights.count() > 1 {
@@ -60,7 +60,13 @@ impl<R: Rays> PathTracer<'_, '_, R> {
             Density::Continuous(_)
                 if sample.target.is_none() && self.several_infinite_lights == Several::Yes =>
             {
-                return Some(self.over_all_infinite_lights(&vertex.receiver, &sample));
+                let (radiance, density) =
+                    self.over_all_infinite_lights(Receiver { ..vertex.receiver }, sample.direction);
+                return Some(LightSample {
+                    radiance,
+                    density: Density::Continuous(density),
+                    ..sample
+                });
             }
             Density::Continuous(p) => Density::Continuous(p * choice.probability),
             Density::Delta(p) => Density::Delta(p * choice.probability),
@@ -68,15 +74,13 @@ impl<R: Rays> PathTracer<'_, '_, R> {
         Some(sample)
     }
 
-    /// The same direction as if drawn from the mixture of all infinite lights: what the scattered
-    /// ray that leaves the scene in this direction finds, too.
-    #[inline(always)]
-    fn over_all_infinite_lights(&self, receiver: &Receiver, sample: &LightSample) -> LightSample {
-        LightSample {
-            radiance: self.scene.background(sample.direction),
-            density: Density::Continuous(self.infinite_density(receiver, sample.direction)),
-            ..*sample
-        }
+    /// Radiance and density of a direction as if drawn from the mixture of all infinite lights: what
+    /// the scattered ray that leaves the scene in this direction finds, too.
+    ///
+    /// Out of line, and with a copy of the receiver: a reference would keep it in memory on every path.
+    #[inline(never)]
+    fn over_all_infinite_lights(&self, receiver: Receiver, direction: Vec3) -> (Color, f32) {
+        (self.scene.background(direction), self.infinite_density(&receiver, direction))
     }
 
     /// Weight of light that light sampling has found and that scattering could have found.

@@ -19,15 +19,30 @@ impl<R: Rays> PathTracer<'_, '_, R> {
         let Some((light, radiance)) = self.scene.emitted(point, -direction) else {
             return Color::black();
         };
-        radiance * self.weight_of_hit(walk.arrival, light, *point)
+        let weight = match walk.arrival {
+            Arrival::Certain => 1.0,
+            Arrival::Scattered { receiver, density } => {
+                let (receiver, point) = (Receiver { ..receiver }, SurfacePoint { ..*point });
+                self.weight_of_hit(receiver, density, light, point)
+            }
+        };
+        radiance * weight
     }
 
-    /// Out of line, and everything by value: few rays find a light, and a reference would keep what
-    /// all of them carry in memory.
+    /// The weight of light that a scattered ray has found on a surface.
+    ///
+    /// Out of line, because few rays do, and with copies field by field: a reference would keep what
+    /// every path carries in memory, and so would a copy that the compiler sees through.
     #[inline(never)]
-    fn weight_of_hit(&self, arrival: Arrival, light: LightId, point: SurfacePoint) -> f32 {
-        self.scattering_weight(&arrival, |receiver| {
-            self.lights.probability(receiver, light, point.primitive)
+    fn weight_of_hit(
+        &self,
+        receiver: Receiver,
+        density: f32,
+        light: LightId,
+        point: SurfacePoint,
+    ) -> f32 {
+        self.scattering_weight(density, || {
+            self.lights.probability(&receiver, light, point.primitive)
                 * self.scene.light_pdf_hit(light, receiver.position, &point)
         })
     }
@@ -39,23 +54,25 @@ impl<R: Rays> PathTracer<'_, '_, R> {
         if self.hides_emitters(walk) || self.scene.infinite_lights().is_empty() {
             return Color::black();
         }
-        let (radiance, weight) = self.background(walk.arrival, walk.ray.direction);
-        radiance * weight
+        match walk.arrival {
+            Arrival::Certain => self.scene.background(walk.ray.direction),
+            Arrival::Scattered { receiver, density } => {
+                self.found_background(Receiver { ..receiver }, density, walk.ray.direction)
+            }
+        }
     }
 
-    /// What infinite lights send, and its weight; out of line, because it ends the path.
+    /// Light that a scattered ray has found by leaving the scene, weighted; out of line as well.
     #[inline(never)]
-    fn background(&self, arrival: Arrival, direction: Vec3) -> (Color, f32) {
+    fn found_background(&self, receiver: Receiver, density: f32, direction: Vec3) -> Color {
         let radiance = self.scene.background(direction);
         if radiance.is_black() {
-            return (radiance, 0.0);
+            return radiance;
         }
-        let density = |receiver: &Receiver| self.infinite_density(receiver, direction);
-        (radiance, self.scattering_weight(&arrival, density))
+        radiance * self.scattering_weight(density, || self.infinite_density(&receiver, direction))
     }
 
     /// Density with which light sampling draws a direction towards infinite lights.
-    #[inline(always)]
     pub(super) fn infinite_density(&self, receiver: &Receiver, direction: Vec3) -> f32 {
         let density = |&light: &LightId| {
             self.lights.probability(receiver, light, 0)
@@ -64,20 +81,14 @@ impl<R: Rays> PathTracer<'_, '_, R> {
         self.scene.infinite_lights().iter().map(density).sum()
     }
 
-    /// Weight of light that a scattered ray has found and that light sampling would have found with
-    /// density `light_density(receiver)`.
-    #[inline(always)]
-    fn scattering_weight(
-        &self,
-        arrival: &Arrival,
-        light_density: impl FnOnce(&Receiver) -> f32,
-    ) -> f32 {
-        match (arrival, self.strategy) {
-            (Arrival::Certain, _) | (_, Strategy::BsdfOnly) => 1.0,
-            (_, Strategy::LightOnly) => 0.0,
-            (Arrival::Scattered { receiver, density }, Strategy::Mis) => {
-                mis::power(*density, light_density(receiver))
-            }
+    /// Weight of light that a ray scattered with a density has found and that light sampling would
+    /// have found with density `light_density()`.
+    #[inline]
+    fn scattering_weight(&self, density: f32, light_density: impl FnOnce() -> f32) -> f32 {
+        match self.strategy {
+            Strategy::BsdfOnly => 1.0,
+            Strategy::LightOnly => 0.0,
+            Strategy::Mis => mis::power(density, light_density()),
         }
     }
 }

@@ -67,13 +67,13 @@ struct Instance {
 fn local_surface(
     shape: &Shape,
     instance: Option<&Instance>,
-    ray: &Ray,
-    hit: &Hit,
+    ray: Ray,
+    hit: Hit,
 ) -> LocalSurface {
     match instance {
-        None => shape.surface(ray, hit),
+        None => shape.surface(&ray, &hit),
         Some(Instance { transform, .. }) => {
-            shape.surface(&transform.inverse_ray(ray), hit).transformed(transform)
+            shape.surface(&transform.inverse_ray(&ray), &hit).transformed(transform)
         }
     }
 }
@@ -159,7 +159,9 @@ impl Geometry {
             return None;
         }
         let mut found = Found::nothing_before(ray.t_max);
-        let objects = World { geometry: self, ray };
+        // A copy field by field: objects are asked by calls, and a reference, or a copy that the
+        // compiler sees through, would keep the caller's ray in memory.
+        let objects = World { geometry: self, ray: &Ray { ..*ray } };
         self.top.bvh.closest(simd, &PreparedRay::new(simd, ray), &objects, &mut found);
         (found.shape != u32::MAX).then_some(Hit {
             t: found.t,
@@ -172,7 +174,7 @@ impl Geometry {
 
     #[inline(always)]
     pub(super) fn occluded_with<S: Simd>(&self, simd: S, ray: &Ray) -> bool {
-        let objects = World { geometry: self, ray };
+        let objects = World { geometry: self, ray: &Ray { ..*ray } };
         ray.is_valid()
             && self.top.bvh.occluded(simd, &PreparedRay::new(simd, ray), &objects, ray.t_max)
     }
@@ -190,7 +192,9 @@ impl Geometry {
                 rectangle.surface(hit.primitive, hit.uv).on(hit.shape)
             }
             // Only now made a point, so that those above need not be where this one is returned.
-            (shape, instance) => local_surface(shape, instance, ray, hit).on(hit.shape),
+            (shape, instance) => {
+                local_surface(shape, instance, Ray { ..*ray }, Hit { ..*hit }).on(hit.shape)
+            }
         }
     }
 
