@@ -4,8 +4,8 @@ use core::fmt::{Debug, Display};
 use core::iter::Sum;
 use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 
-use crate::{backend, eighth_turn};
 use crate::vector::Vector3;
+use crate::{backend, eighth_turn};
 
 mod sealed {
     pub trait Sealed {}

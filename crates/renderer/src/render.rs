@@ -109,7 +109,12 @@ impl<'a> Renderer<'a> {
     fn sample_with<S: Sampler>(&self, pixel: [u32; 2], index: u32) -> Color {
         let points = S::at(self.settings.seed, pixel, u64::from(index));
         let filter = self.filter.pixel(pixel);
-        self.path_sample(&self.tracer(&self.scene.geometry), &filter, &points, &mut RayCounts::default())
+        self.path_sample(
+            &self.tracer(&self.scene.geometry),
+            &filter,
+            &points,
+            &mut RayCounts::default(),
+        )
     }
 
     /// Renders the given tiles, in this order.

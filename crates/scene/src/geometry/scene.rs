@@ -64,12 +64,7 @@ struct Instance {
 
 /// The point of any shape, in a group or not. Out of line, so that meshes do not pay for it.
 #[inline(never)]
-fn local_surface(
-    shape: &Shape,
-    instance: Option<&Instance>,
-    ray: Ray,
-    hit: Hit,
-) -> LocalSurface {
+fn local_surface(shape: &Shape, instance: Option<&Instance>, ray: Ray, hit: Hit) -> LocalSurface {
     match instance {
         None => shape.surface(&ray, &hit),
         Some(Instance { transform, .. }) => {

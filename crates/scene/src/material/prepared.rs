@@ -108,7 +108,11 @@ impl<'a> PreparedBsdf<'a> {
     pub(super) fn new(placed: Placed<'a>, opacity: f32) -> Self {
         if opacity < 1.0 {
             let masked = Mask::new(placed, Opacity::clamped(opacity));
-            return Self { lobes: masked.lobes(), chooses_lobe: true, cover: Cover::Partial(masked) };
+            return Self {
+                lobes: masked.lobes(),
+                chooses_lobe: true,
+                cover: Cover::Partial(masked),
+            };
         }
         let chooses_lobe = placed.model.chooses_lobe();
         Self { lobes: placed.lobes(), chooses_lobe, cover: Cover::Whole(placed) }
