@@ -75,22 +75,6 @@ macro_rules! forward_bsdf {
                 }
             }
 
-            #[inline]
-            fn eval(&self, wo: Vec3, wi: Vec3) -> Color {
-                match self {
-                    Self::$first(model) => model.eval(wo, wi),
-                    $(Self::$variant(model) => model.eval(wo, wi)),+
-                }
-            }
-
-            #[inline]
-            fn pdf(&self, wo: Vec3, wi: Vec3) -> f32 {
-                match self {
-                    Self::$first(model) => model.pdf(wo, wi),
-                    $(Self::$variant(model) => model.pdf(wo, wi)),+
-                }
-            }
-
             #[inline(always)]
             fn eval_pdf(&self, wo: Vec3, wi: Vec3) -> (Color, f32) {
                 // Taken apart and put together again, here and by `?` below: what is returned from

@@ -76,16 +76,6 @@ impl Bsdf for Placed<'_> {
         self.model.lobes()
     }
 
-    #[inline]
-    fn eval(&self, wo: Vec3, wi: Vec3) -> Color {
-        self.model.eval(self.place(wo), self.place(wi))
-    }
-
-    #[inline]
-    fn pdf(&self, wo: Vec3, wi: Vec3) -> f32 {
-        self.model.pdf(self.place(wo), self.place(wi))
-    }
-
     #[inline(always)]
     fn eval_pdf(&self, wo: Vec3, wi: Vec3) -> (Color, f32) {
         self.model.eval_pdf(self.place(wo), self.place(wi))
@@ -132,22 +122,6 @@ impl Bsdf for PreparedBsdf<'_> {
     #[inline(always)]
     fn lobes(&self) -> Lobes {
         self.lobes
-    }
-
-    #[inline]
-    fn eval(&self, wo: Vec3, wi: Vec3) -> Color {
-        match &self.cover {
-            Cover::Whole(placed) => placed.eval(wo, wi),
-            Cover::Partial(masked) => masked.eval(wo, wi),
-        }
-    }
-
-    #[inline]
-    fn pdf(&self, wo: Vec3, wi: Vec3) -> f32 {
-        match &self.cover {
-            Cover::Whole(placed) => placed.pdf(wo, wi),
-            Cover::Partial(masked) => masked.pdf(wo, wi),
-        }
     }
 
     #[inline(always)]
