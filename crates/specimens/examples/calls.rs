@@ -5,8 +5,8 @@
 //! Prints the nanoseconds per call. `nothing` prepares the model and reads the inputs, as all do, and calls
 //! nothing; `rgb` is `f32` in three channels.
 
-use std::env;
 use core::hint::black_box;
+use std::env;
 use std::process::ExitCode;
 use std::time::Instant;
 
