@@ -6,15 +6,15 @@ pub(super) const MUTATIONS: &[Mutation] = &[
     Mutation {
         fault: "density of a reflected facet with 2 for 4: missing Jacobian",
         file: "crates/brdf/src/rough/rough_conductor.rs",
-        find: "let area = T::lit(4.0) * facets.projected_area(wo);",
-        replace: "let area = T::TWO * facets.projected_area(wo);",
+        find: "let area = T::lit(4.0) * area;",
+        replace: "let area = T::TWO * area;",
         filters: &["rough-conductor"],
     },
     Mutation {
         fault: "Fresnel of the macroscopic angle: swapped angle",
         file: "crates/brdf/src/rough/rough_conductor.rs",
-        find: "(self.reflectance(cos).scale(lobe), reflection_pdf(&self.facets, wo, d))",
-        replace: "(self.reflectance(wo.z() + C::Real::ZERO * cos).scale(lobe), reflection_pdf(&self.facets, wo, d))",
+        find: "(self.reflectance(cos).scale(lobe), density(",
+        replace: "(self.reflectance(wo.z()).scale(lobe), density(",
         filters: &["rough-conductor"],
     },
     Mutation {
