@@ -66,4 +66,18 @@ pub(super) const MUTATIONS: &[Mutation] = &[
         replace: "d * self.facets.visibility(wo, wi)",
         filters: &["rough-conductor"],
     },
+    Mutation {
+        fault: "compensation without the average loss: missing factor",
+        file: "crates/brdf/src/rough/kulla_conty.rs",
+        find: "C::Real::FRAC_1_PI / lost }",
+        replace: "C::Real::FRAC_1_PI }",
+        filters: &["kulla-conty"],
+    },
+    Mutation {
+        fault: "compensation of the viewer's loss twice: swapped angle",
+        file: "crates/brdf/src/rough/kulla_conty.rs",
+        find: "self.multiple.scale(lost * self.loss.at(wi.z()))",
+        replace: "self.multiple.scale(lost * lost)",
+        filters: &["kulla-conty"],
+    },
 ];
