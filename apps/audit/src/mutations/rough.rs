@@ -46,7 +46,7 @@ pub(super) const MUTATIONS: &[Mutation] = &[
         filters: &["rough-dielectric"],
     },
     Mutation {
-        fault: "radiance not scaled across: missing 1/η²",
+        fault: "radiance not scaled across a rough surface: missing 1/η²",
         file: "crates/brdf/src/rough/rough_dielectric.rs",
         find: "self.specular_transmittance.scale(one / (eta * eta))",
         replace: "self.specular_transmittance",
