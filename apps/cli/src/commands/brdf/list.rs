@@ -61,6 +61,7 @@ fn reciprocity(reciprocity: Reciprocity) -> String {
     match reciprocity {
         Reciprocity::Reciprocal => "reciprocal".into(),
         Reciprocity::UpToSquaredIndex => "reciprocal up to the squared index".into(),
+        Reciprocity::NonReciprocal { .. } => "not reciprocal".into(),
     }
 }
 
@@ -72,14 +73,10 @@ fn energy(energy: &Energy) -> String {
 }
 
 fn lobes(lobes: Lobes) -> Vec<&'static str> {
-    [
-        (lobes.continuous, "continuous"),
-        (lobes.delta, "delta"),
-        (lobes.transmission, "transmission"),
-    ]
-    .into_iter()
-    .filter_map(|(has, name)| has.then_some(name))
-    .collect()
+    [(lobes.continuous, "continuous"), (lobes.delta, "delta"), (lobes.transmission, "transmission")]
+        .into_iter()
+        .filter_map(|(has, name)| has.then_some(name))
+        .collect()
 }
 
 fn albedo(albedo: Albedo) -> &'static str {

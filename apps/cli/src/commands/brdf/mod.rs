@@ -5,6 +5,7 @@ use clap::Subcommand;
 use crate::failure::{Exit, Failure};
 
 mod eval;
+mod figure;
 mod list;
 mod lobe;
 mod plot;
