@@ -20,8 +20,8 @@ pub(super) const MUTATIONS: &[Mutation] = &[
     Mutation {
         fault: "Fresnel of the macroscopic angle in value and weight alike: swapped angle",
         file: "crates/brdf/src/smooth/smooth_conductor.rs",
-        find: "ior.eta().zip(ior.k(), |eta, k| fresnel::conductor(cos, eta, k))",
-        replace: "ior.eta().zip(ior.k(), |eta, k| fresnel::conductor(cos * cos, eta, k))",
+        find: "ior.eta().zip(ior.k(), |eta, k| fresnel::conductor_of_valid(cos, eta, k))",
+        replace: "ior.eta().zip(ior.k(), |eta, k| fresnel::conductor_of_valid(cos * cos, eta, k))",
         filters: &["conductor"],
     },
     Mutation {
