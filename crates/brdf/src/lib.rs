@@ -31,6 +31,7 @@
 //! | [`DiffuseTransmitter`] | reflectance, transmittance | reciprocal; albedo ≤ 1 in closed form | cosine on the side chosen by mean colours | two Lambertian lobes |
 //! | [`Eon`] | reflectance, roughness, sampling | reciprocal; albedo ≤ 1 in closed form | cosine, or clipped linearly transformed cosine | Portsmouth, Kutz and Hill 2025 |
 //! | [`Eon`] | reflectance, roughness, sampling | reciprocal; albedo ≤ 1.000147 in closed form | cosine, or clipped linearly transformed cosine | Portsmouth, Kutz and Hill 2025 |
+//! | [`KullaContyConductor`] | eta, k, distribution, alpha, masking, specular_reflectance | reciprocal; albedo ≤ 1.004 | mixture of visible normals and cosine | Kulla and Conty 2017, with the square of F_avg |
 //! | [`Lambert`] | reflectance | reciprocal; albedo ≤ 1 in closed form | cosine | Lambert 1760 |
 //! | [`LayeredFresnel`] | r0, rd | **not reciprocal**; albedo ≤ 1.952381 in closed form | mirror or cosine, by mean albedos | Shirley et al. 1997, section 2 |
 //! | [`LayeredLinear`] | rd, rs | reciprocal; albedo ≤ 1 in closed form | mirror or cosine, by mean shares | Shirley et al. 1997, section 2 |
@@ -41,13 +42,14 @@
 //! | [`OrenNayarQualitative`] | reflectance, sigma | reciprocal; albedo ≤ 1.0152 | cosine | Oren and Nayar 1994, eq. 30 |
 //! | [`Phong`] | kd, ks, exponent | reciprocal; albedo ≤ 1 in closed form | cosine, or the lobe, by mean colours | Lafortune and Willems 1994 |
 //! | [`Plastic`] | eta, reflectance, specular_reflectance, scattering, internal_reflectance | reciprocal; albedo ≤ 1 in closed form | mirror or cosine, by Fresnel and mean colours | Mitsuba, plastic; Wolff 1994 |
-//! | [`RoughConductor`] | eta, k, distribution, alpha_x, alpha_y, masking, specular_reflectance | reciprocal; albedo ≤ 1 | visible normals | Walter et al. 2007; Heitz 2014, 2018; Dupuy and Benyoub 2023 |
+//! | [`RoughConductor`] | eta, k, distribution, alpha_x, alpha_y, masking, specular_reflectance | reciprocal; albedo ≤ 1 | visible normals; bounded ones or all by choice | Walter et al. 2007; Heitz 2014, 2018; Dupuy and Benyoub 2023; Eto and Tokuyoshi 2023 |
 //! | [`RoughCoupled`] | r0, rm, distribution, alpha_x, alpha_y, masking | reciprocal; albedo ≤ 1.017 | mixture of visible normals and cosine | Shirley et al. 1997, section 3; Walter et al. 2007 |
 //! | [`RoughDielectric`] | eta, distribution, alpha_x, alpha_y, masking, specular_reflectance, specular_transmittance | reciprocal up to η²; albedo ≤ 1 | visible normals, reflection with probability F | Walter et al. 2007; Heitz and d'Eon 2014 |
 //! | [`RoughPlastic`] | eta, distribution, alpha, masking, reflectance, specular_reflectance, scattering, internal_reflectance | reciprocal; albedo ≤ 1 | mixture of visible normals and cosine | Mitsuba, roughplastic |
 //! | [`SmoothConductor`] | eta, k, specular_reflectance | reciprocal; albedo ≤ 1 in closed form | delta | Born and Wolf, section 14.2 |
 //! | [`SmoothDielectric`] | eta, specular_reflectance, specular_transmittance | reciprocal up to η²; albedo ≤ 1 in closed form | delta, reflection with probability F | Born and Wolf, section 1.5 |
 //! | [`ThinDielectric`] | eta, specular_reflectance, specular_transmittance | reciprocal; albedo ≤ 1 in closed form | delta, reflection with probability 2F/(1 + F) | Mitsuba, thindielectric |
+//! | [`TurquinConductor`] | eta, k, distribution, alpha, masking, specular_reflectance | **not reciprocal**; albedo ≤ 1.005 | visible normals | Turquin 2019 |
 //! | [`TwoSided`] | front, back | reciprocal; albedo ≤ 1 | that of the side | Mitsuba, twosided |
 //! <!-- end models -->
 //!

@@ -6,22 +6,22 @@ pub(super) const MUTATIONS: &[Mutation] = &[
     Mutation {
         fault: "density of a reflected facet with 2 for 4: missing Jacobian",
         file: "crates/brdf/src/rough/rough_conductor.rs",
-        find: "let area = T::lit(4.0) * facets.projected_area(wo);",
-        replace: "let area = T::TWO * facets.projected_area(wo);",
+        find: "let area = T::lit(4.0) * area;",
+        replace: "let area = T::TWO * area;",
         filters: &["rough-conductor"],
     },
     Mutation {
         fault: "Fresnel of the macroscopic angle: swapped angle",
         file: "crates/brdf/src/rough/rough_conductor.rs",
-        find: "(self.reflectance(cos).scale(lobe), reflection_pdf(&self.facets, wo, d))",
-        replace: "(self.reflectance(wo.z() + C::Real::ZERO * cos).scale(lobe), reflection_pdf(&self.facets, wo, d))",
+        find: "(self.reflectance(cos).scale(lobe), density(",
+        replace: "(self.reflectance(wo.z()).scale(lobe), density(",
         filters: &["rough-conductor"],
     },
     Mutation {
         fault: "Fresnel of the macroscopic angle in value and weight alike: swapped angle",
         file: "crates/brdf/src/smooth/smooth_conductor.rs",
-        find: "ior.eta().zip(ior.k(), |eta, k| fresnel::conductor(cos, eta, k))",
-        replace: "ior.eta().zip(ior.k(), |eta, k| fresnel::conductor(cos * cos, eta, k))",
+        find: "ior.eta().zip(ior.k(), |eta, k| fresnel::conductor_of_valid(cos, eta, k))",
+        replace: "ior.eta().zip(ior.k(), |eta, k| fresnel::conductor_of_valid(cos * cos, eta, k))",
         filters: &["conductor"],
     },
     Mutation {
@@ -46,7 +46,7 @@ pub(super) const MUTATIONS: &[Mutation] = &[
         filters: &["rough-dielectric"],
     },
     Mutation {
-        fault: "radiance not scaled across: missing 1/η²",
+        fault: "radiance not scaled across a rough surface: missing 1/η²",
         file: "crates/brdf/src/rough/rough_dielectric.rs",
         find: "self.specular_transmittance.scale(one / (eta * eta))",
         replace: "self.specular_transmittance",
@@ -65,5 +65,19 @@ pub(super) const MUTATIONS: &[Mutation] = &[
         find: "(d * self.facets.visibility(wo, wi)).min(C::Real::MAX)",
         replace: "d * self.facets.visibility(wo, wi)",
         filters: &["rough-conductor"],
+    },
+    Mutation {
+        fault: "compensation without the average loss: missing factor",
+        file: "crates/brdf/src/rough/kulla_conty.rs",
+        find: "C::Real::FRAC_1_PI / lost }",
+        replace: "C::Real::FRAC_1_PI }",
+        filters: &["kulla-conty"],
+    },
+    Mutation {
+        fault: "compensation of the viewer's loss twice: swapped angle",
+        file: "crates/brdf/src/rough/kulla_conty.rs",
+        find: "self.multiple.scale(lost * self.loss.at(wi.z()))",
+        replace: "self.multiple.scale(lost * lost)",
+        filters: &["kulla-conty"],
     },
 ];
