@@ -111,6 +111,7 @@ pub mod microfacet;
 pub mod named;
 mod param;
 mod phong;
+mod principled;
 pub mod quadrature;
 pub mod radiometry;
 pub mod registry;
@@ -138,6 +139,7 @@ pub use phong::{
     AshikhminShirley, AshikhminShirleyDiffuse, AshikhminShirleySampling, AshikhminShirleySpecular,
     Phong, PhongHalfVectors,
 };
+pub use principled::{Principled, PrincipledParameters, PrincipledThin, PrincipledThinParameters};
 pub use rough::{
     Conductor, Dielectric, KullaContyConductor, RoughConductor, RoughDielectric, TurquinConductor,
 };

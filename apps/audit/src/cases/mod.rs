@@ -7,6 +7,7 @@ mod diffuse;
 mod layered;
 mod parameters;
 mod phong;
+mod principled;
 mod rough;
 mod smooth;
 mod textbook;
@@ -73,6 +74,8 @@ pub fn models() -> Vec<ModelCases> {
         of("coupled", layered::coupled, layered::coupled),
         of("rough-coupled", layered::rough_coupled, layered::rough_coupled),
         of("blend", adapter::blend, adapter::blend),
+        of("principled", principled::principled, principled::principled),
+        of("principled-thin", principled::principled_thin, principled::principled_thin),
         of("mask", adapter::mask, adapter::mask),
         of("two-sided", adapter::two_sided, adapter::two_sided),
     ]
