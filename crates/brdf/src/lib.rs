@@ -106,6 +106,7 @@ pub mod fresnel;
 #[cfg(test)]
 mod laws;
 mod layered;
+mod measured;
 pub mod microfacet;
 #[cfg(feature = "alloc")]
 pub mod named;
@@ -130,6 +131,7 @@ pub use layered::{
     LayeredLinear, MirrorOverMatte, Plastic, PlasticInterface, RoughCoupled, RoughPlastic,
     StochasticLayers, TransmittanceTable,
 };
+pub use measured::{Interpolation, Measured, MerlError, MerlTable, tabulate};
 pub use microfacet::{BeckmannLambda, Distribution, Masking, Microfacets};
 pub use param::{
     Alpha, ComplexIor, Exponent, Ior, Opacity, OpticalDepth, ParameterError, Reflectance,

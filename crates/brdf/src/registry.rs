@@ -1,6 +1,6 @@
 //! The list of all models: what they take, promise and rest on.
 
-use crate::{Lobes, adapter, diffuse, layered, phong, principled, rough, smooth};
+use crate::{Lobes, adapter, diffuse, layered, measured, phong, principled, rough, smooth};
 
 /// Whether exchanging the two directions changes a model's value.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,6 +32,8 @@ pub enum Energy {
         /// The parameters and the angle it belongs to.
         at: &'static str,
     },
+    /// Whatever the data say.
+    OfData,
 }
 
 /// Where a model's directional albedo comes from.
@@ -143,6 +145,7 @@ pub const MODELS: &[ModelInfo] = &[
     layered::layered_fresnel::INFO,
     layered::layered_linear::INFO,
     adapter::mask::INFO,
+    measured::merl::INFO,
     smooth::null::INFO,
     diffuse::oren_nayar::INFO,
     diffuse::oren_nayar_fujii::INFO,
