@@ -326,8 +326,8 @@ mod tests {
                 let sin = Real::sqrt(1.0 - cos * cos);
                 DVec3::new(sin * Real::cos(phi), sin * Real::sin(phi), cos)
             };
-            let wo = direction(0.3 + 0.7 * angle(0.618), 6.28 * angle(0.414));
-            let wi = direction(0.3 + 0.7 * angle(0.732), 6.28 * angle(0.236));
+            let wo = direction(0.3 + 0.7 * angle(0.618), 2.0 * f64::PI * angle(0.414));
+            let wi = direction(0.3 + 0.7 * angle(0.732), 2.0 * f64::PI * angle(0.236));
             let want = gold().eval(wo, wi).r;
             for (error, model) in errors.iter_mut().zip(&models) {
                 let got = model.eval(wo, wi).r;
