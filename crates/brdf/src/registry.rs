@@ -119,8 +119,11 @@ pub(crate) mod parameter {
     pub(crate) const SHEEN: ParameterInfo = named("sheen", "in [0, 1]");
     pub(crate) const SHEEN_TINT: ParameterInfo = named("sheen_tint", "in [0, 1]");
     pub(crate) const FLATNESS: ParameterInfo = named("flatness", "in [0, 1]");
-    pub(crate) const SAMPLING_RATES: ParameterInfo =
-        named("sampling rate of each lobe", "in [0, 1e6]");
+
+    /// The rate at which a lobe is sampled.
+    pub(crate) const fn sampling_rate(name: &'static str) -> ParameterInfo {
+        named(name, "in [0, 1e6]")
+    }
 }
 
 /// Every type that implements [`Bsdf`](crate::Bsdf), in alphabetical order of the names; each

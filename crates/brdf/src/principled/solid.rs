@@ -320,7 +320,9 @@ pub(crate) const INFO: ModelInfo = ModelInfo {
         parameter::FLATNESS,
         parameter::named("clearcoat", "in [0, 1]"),
         parameter::named("clearcoat_gloss", "in [0, 1]"),
-        parameter::SAMPLING_RATES,
+        parameter::sampling_rate("diffuse_reflectance_sampling_rate"),
+        parameter::sampling_rate("main_specular_sampling_rate"),
+        parameter::sampling_rate("clearcoat_sampling_rate"),
     ],
     reciprocity: Reciprocity::UpToSquaredIndex,
     energy: Energy::Gains {

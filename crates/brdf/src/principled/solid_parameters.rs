@@ -92,7 +92,8 @@ impl<C: Spectrum> PrincipledParameters<C> {
 
     /// Checks every domain.
     pub(super) fn check(&self) -> Result<(), ParameterError> {
-        Reflectance::new(self.base_color)?;
+        let parameter = "base_color";
+        Reflectance::new(self.base_color).map_err(|e| ParameterError { parameter, ..e })?;
         Ior::new(self.eta)?;
         for (name, x) in [
             ("roughness", self.roughness),

@@ -66,7 +66,8 @@ impl<C: Spectrum> Default for PrincipledThinParameters<C> {
 impl<C: Spectrum> PrincipledThinParameters<C> {
     /// Checks every domain.
     pub(super) fn check(&self) -> Result<(), ParameterError> {
-        Reflectance::new(self.base_color)?;
+        let parameter = "base_color";
+        Reflectance::new(self.base_color).map_err(|e| ParameterError { parameter, ..e })?;
         Ior::new(self.eta)?;
         within("diff_trans", self.diff_trans, [0.0, 2.0], "in [0, 2]")?;
         for (name, x) in [
