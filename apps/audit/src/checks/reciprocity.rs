@@ -17,7 +17,8 @@ use crate::subject::{Subject, conditioned_ulp};
 ///                                η the index of the medium of wi relative to that of wo
 /// ```
 ///
-/// Of a model that promises it of reflection only, pairs across are left out. One that promises no symmetry is held to the asymmetry it states instead: the residual
+/// Of a model that promises it of reflection only, pairs across are left out. One that promises no symmetry
+/// is held to the asymmetry it states instead: the residual
 ///
 /// ```text
 /// |f(a, b) − f(b, a)| / max(f(a, b), f(b, a)),  a the normal, cos θ of b = 0.1

@@ -86,8 +86,8 @@ fn entries<C: Spectrum>() -> Vec<Entry<C>> {
 /// The model `name` with these parameters.
 ///
 /// Parameters that scale (`specular_reflectance`, …) are 1 and choices (`distribution`, …) have their first value unless given;
-/// `principled` and `principled-thin` have Mitsuba's defaults; all others are needed. Rough dielectrics mask separably unless told otherwise, as Walter et al. do, rough conductors
-/// height-correlated. `ashikhmin-shirley` samples half vectors, as published, unless a mixture is asked for.
+/// `principled` and `principled-thin` have Mitsuba's defaults; all others are needed. Rough dielectrics mask
+/// separably unless told otherwise, as Walter et al. do, rough conductors height-correlated. `ashikhmin-shirley` samples half vectors, as published, unless a mixture is asked for.
 ///
 /// # Errors
 /// [`NamedError`] for an unknown name, and for parameters that are unknown, missing, of the wrong kind or
