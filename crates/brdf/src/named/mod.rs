@@ -196,14 +196,10 @@ mod tests {
             build::<f64>(model, &parameters).err().unwrap().to_string()
         };
         let none = Parameters::new;
-<<<<<<< HEAD
         assert!(
             message("lambrt", none())
                 .starts_with("there is no \"lambrt\"; known are absorbing-slab, ")
         );
-=======
-        assert!(message("lambrt", none()).starts_with("there is no \"lambrt\"; known are absorbing-slab, "));
->>>>>>> named
         assert_eq!(message("lambert", none()), "lambert needs the parameter \"reflectance\"");
         assert_eq!(
             message("lambert", none().with_number("albedo", 1.5)),
