@@ -14,6 +14,9 @@
 #[cfg(test)]
 extern crate std;
 
+#[cfg(test)]
+extern crate alloc;
+
 pub mod bits;
 pub mod functions;
 mod inputs;

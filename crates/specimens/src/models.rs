@@ -215,7 +215,7 @@ fn principled_thin<C: Spectrum>(p: &mut impl Parameters) -> PrincipledThinParame
 mod tests {
     use super::*;
     use etendue_brdf::registry::MODELS;
-    use std::vec::Vec;
+    use alloc::vec::Vec;
 
     #[test]
     fn every_registered_model_has_a_specimen() {

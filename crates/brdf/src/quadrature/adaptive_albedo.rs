@@ -260,7 +260,7 @@ impl<T: Real + Spectrum<Real = T>, B: Bsdf<Color = T> + ?Sized> Integral<'_, T, 
                 i => {
                     let step = i - CORNERS - QUANTILES;
                     let reach = spread * T::lit(4.0).powi((step / 2) as u32);
-                    if step % 2 == 0 { low - reach } else { high + reach }
+                    if step.is_multiple_of(2) { low - reach } else { high + reach }
                 }
             };
             *end = at.max(T::ZERO).min(last);
