@@ -3,7 +3,7 @@
 #
 # usage: tests/miri.sh [TARGET]
 #
-# * the unit tests of etendue-math, and those of etendue-specimens;
+# * the unit tests of etendue-math;
 # * the bits of every function and model over 64 inputs in f32 and f64: all code paths of the three crates, on the
 #   libm backend, because Miri varies the last bits of std's functions on purpose;
 # * every sixteenth row of exact values.
@@ -20,5 +20,4 @@ target=(${1:+--target "$1"})
 libm=(--no-default-features --features libm)
 
 cargo +nightly miri test "${target[@]}" "${libm[@]}" -p etendue-math --lib
-cargo +nightly miri test "${target[@]}" "${libm[@]}" -p etendue-specimens --lib
 cargo +nightly miri test "${target[@]}" "${libm[@]}" -p etendue-brdf --test bits --test golden

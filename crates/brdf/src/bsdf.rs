@@ -55,7 +55,8 @@ impl Lobes {
 /// `1/η²` with `η` the index of the medium of `wi` relative to that of `wo`.
 ///
 /// Evaluation is total: outside a model's domain (a direction below the surface of a one-sided
-/// model, a NaN, a zero vector) values and densities are 0 and `sample` is `None`. Uniforms lie in `[0, 1)`.
+/// model, a NaN, a zero vector, one a thousand units long) values and densities are 0 and `sample` is
+/// `None`. Uniforms lie in `[0, 1)`.
 pub trait Bsdf {
     /// Scalar, RGB or a set of wavelengths.
     type Color: Spectrum;

@@ -108,11 +108,13 @@ pub mod fresnel;
 #[cfg(test)]
 mod laws;
 mod layered;
+mod measured;
 pub mod microfacet;
 #[cfg(feature = "alloc")]
 pub mod named;
 mod param;
 mod phong;
+mod principled;
 pub mod quadrature;
 pub mod radiometry;
 pub mod registry;
@@ -131,6 +133,7 @@ pub use layered::{
     LayeredLinear, MirrorOverMatte, Plastic, PlasticInterface, RoughCoupled, RoughPlastic,
     StochasticLayers, TransmittanceTable,
 };
+pub use measured::{Interpolation, Measured, MerlError, MerlTable, tabulate};
 pub use microfacet::{BeckmannLambda, Distribution, Masking, Microfacets};
 pub use param::{
     Alpha, ComplexIor, Exponent, Ior, Opacity, OpticalDepth, ParameterError, Reflectance,
@@ -140,6 +143,7 @@ pub use phong::{
     AshikhminShirley, AshikhminShirleyDiffuse, AshikhminShirleySampling, AshikhminShirleySpecular,
     Phong, PhongHalfVectors,
 };
+pub use principled::{Principled, PrincipledParameters, PrincipledThin, PrincipledThinParameters};
 pub use rough::{
     Conductor, Dielectric, KullaContyConductor, RoughConductor, RoughDielectric, TurquinConductor,
 };

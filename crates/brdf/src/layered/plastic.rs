@@ -34,10 +34,12 @@ impl<T: Real> PlasticInterface<T> {
         Self {
             eta,
             inverse_eta_squared,
+            // Below 1, which the fit exceeds and rounding reaches at extreme indices.
             internal: match internal {
                 InternalReflectance::Exact => dielectric_average(inverse),
                 InternalReflectance::Mitsuba => dielectric_average_fit(inverse),
-            },
+            }
+            .clamp_to(T::ZERO, T::ONE_MINUS_EPSILON),
             escape: (T::ONE - dielectric_average(eta)) * inverse_eta_squared,
         }
     }
