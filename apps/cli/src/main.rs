@@ -1,4 +1,4 @@
-//! The command `etendue`: renders scenes, inspects them and compares pictures.
+//! The command `etendue`: renders scenes, inspects them, compares pictures and evaluates reflection models.
 //!
 //! Only this crate prints, parses arguments and exits. Each subcommand is a file in `commands`.
 
@@ -20,7 +20,7 @@ mod memory;
 mod output;
 mod progress;
 
-use commands::{compare, info, render};
+use commands::{brdf, compare, info, render};
 use failure::{Exit, Failure};
 
 /// Renders Mitsuba scenes and bare meshes, exactly and fast.
@@ -36,6 +36,7 @@ enum Command {
     Render(render::Arguments),
     Info(info::Arguments),
     Compare(compare::Arguments),
+    Brdf(brdf::Arguments),
 }
 
 const EXIT_CODES: &str = "Exit codes: 0 done, 1 internal error, 2 usage, 3 scene, 4 input or output, \
@@ -48,6 +49,7 @@ fn main() -> ExitCode {
         Command::Render(arguments) => render::run(arguments),
         Command::Info(arguments) => info::run(arguments),
         Command::Compare(arguments) => compare::run(arguments),
+        Command::Brdf(arguments) => brdf::run(arguments),
     })
     .unwrap_or_else(|_| Err(internal_error()));
     match outcome {

@@ -4,8 +4,8 @@
 //! `cargo bench -p etendue-brdf --bench models` measures the `std` backend, with
 //! `--no-default-features --features libm` the other; a trailing `-- rough-conductor/f32` restricts the run.
 
-use std::hint::black_box;
-use std::time::Duration;
+use core::hint::black_box;
+use core::time::Duration;
 
 use criterion::{Criterion, Throughput};
 use etendue_brdf::Bsdf;

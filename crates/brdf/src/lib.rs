@@ -16,28 +16,44 @@
 //! - Uniforms are arguments in `[0, 1)`: one to choose a lobe, two for the direction in it.
 //!
 //! # Models
-//! | type | what | sampling |
-//! | --- | --- | --- |
-//! | [`Lambert`] | ideal diffuse | cosine |
-//! | [`OrenNayar`], [`OrenNayarQualitative`], [`OrenNayarFujii`] | rough diffuse (V-cavities) | cosine |
-//! | [`Eon`] | rough diffuse, all orders of scattering | cosine, or clipped transformed cosine |
-//! | [`Burley`] | Disney diffuse | cosine |
-//! | [`DiffuseTransmitter`] | leaf, paper | cosine on either side |
-//! | [`Phong`] | diffuse and a cosine power about the mirror direction | lobe and cosine |
-//! | [`AshikhminShirley`], [its specular](AshikhminShirleySpecular) and [diffuse part](AshikhminShirleyDiffuse) | anisotropic Phong over a diffuse base | half vectors, cosine |
-//! | [`SmoothConductor`], [`RoughConductor`], [`Conductor`] | metal; the last chooses by roughness | mirror; visible normals |
-//! | [`SmoothDielectric`], [`RoughDielectric`], [`Dielectric`] | glass; the last chooses by roughness and index | Fresnel; visible normals |
-//! | [`ThinDielectric`] | pane | Fresnel of the slab |
-//! | [`Plastic`], [`RoughPlastic`] | diffuse base under a dielectric | mirror or visible normals, and cosine |
-//! | [`AbsorbingSlab`] | pane of tinted glass | reflected and transmitted shares |
-//! | [`LayeredLinear`], [`LayeredFresnel`] | mirror and matte term, uncoupled (the latter not reciprocal) | mirror and cosine |
-//! | [`Coupled`], [`RoughCoupled`] | matte term coupled to a mirror or a rough lobe | mirror or visible normals, and cosine |
-//! | [`Null`] | nothing: straight on | – |
-//! | [`Blend`], [`Mask`], [`TwoSided`] | adapters | that of the inner models |
+//! <!-- begin models -->
+//! | model | parameters | laws | sampled by | source |
+//! | --- | --- | --- | --- | --- |
+//! | [`AbsorbingSlab`] | eta, optical_depth | reciprocal; albedo ≤ 1 in closed form | delta, by the mean shares | Heavens 1955 |
+//! | [`AshikhminShirley`] | nu, nv, rs, rd, sampling | reciprocal; albedo ≤ 1 | half vectors, p(h)/(4 h·wo), and cosine by albedos; or half vectors alone | Ashikhmin and Shirley 2000 |
+//! | [`AshikhminShirleyDiffuse`] | rs, rd | reciprocal; albedo ≤ 1 in closed form | cosine | Ashikhmin and Shirley 2000, eq. 5 |
+//! | [`AshikhminShirleySpecular`] | nu, nv, rs | reciprocal; albedo ≤ 1 | half vectors, p(h)/(4 h·wo) | Ashikhmin and Shirley 2000 |
+//! | [`Blend`] | first, second, weight | reciprocal up to η²; albedo ≤ 1 | mixture of the two | Mitsuba, blendbsdf |
+//! | [`Burley`] | base_color, roughness | reciprocal; albedo ≤ 1.5575396825396826 in closed form | cosine | Burley 2012 |
+//! | [`Conductor`] | eta, k, distribution, alpha_x, alpha_y, masking, specular_reflectance | reciprocal; albedo ≤ 1 | that of the variant chosen at construction | smooth-conductor, or rough-conductor for alpha >= 1e-8 |
+//! | [`Coupled`] | r0, rm | reciprocal; albedo ≤ 1 in closed form | mirror or cosine, by mean albedos | Shirley et al. 1997, section 3 |
+//! | [`Dielectric`] | eta, distribution, alpha_x, alpha_y, masking, specular_reflectance, specular_transmittance | reciprocal up to η²; albedo ≤ 1 | that of the variant chosen at construction | null for eta = 1, smooth-dielectric, or rough-dielectric for alpha >= 1e-8 |
+//! | [`DiffuseTransmitter`] | reflectance, transmittance | reciprocal; albedo ≤ 1 in closed form | cosine on the side chosen by mean colours | two Lambertian lobes |
+//! | [`Eon`] | reflectance, roughness, sampling | reciprocal; albedo ≤ 1 in closed form | cosine, or clipped linearly transformed cosine | Portsmouth, Kutz and Hill 2025 |
+//! | [`Eon`] | reflectance, roughness, sampling | reciprocal; albedo ≤ 1.000147 in closed form | cosine, or clipped linearly transformed cosine | Portsmouth, Kutz and Hill 2025 |
+//! | [`Lambert`] | reflectance | reciprocal; albedo ≤ 1 in closed form | cosine | Lambert 1760 |
+//! | [`LayeredFresnel`] | r0, rd | **not reciprocal**; albedo ≤ 1.952381 in closed form | mirror or cosine, by mean albedos | Shirley et al. 1997, section 2 |
+//! | [`LayeredLinear`] | rd, rs | reciprocal; albedo ≤ 1 in closed form | mirror or cosine, by mean shares | Shirley et al. 1997, section 2 |
+//! | [`Mask`] | opacity, inner | reciprocal; albedo ≤ 1 | the inner one with probability opacity | Mitsuba, mask |
+//! | [`Null`] |  | reciprocal; albedo ≤ 1 in closed form | delta | index-matched limit of a dielectric |
+//! | [`OrenNayar`] | reflectance, sigma | reciprocal; albedo ≤ 1.0509 | cosine | Oren and Nayar 1994, eqs. 27 to 29 |
+//! | [`OrenNayarFujii`] | reflectance, roughness | reciprocal; albedo ≤ 1 in closed form | cosine | Fujii 2012 |
+//! | [`OrenNayarQualitative`] | reflectance, sigma | reciprocal; albedo ≤ 1.0152 | cosine | Oren and Nayar 1994, eq. 30 |
+//! | [`Phong`] | kd, ks, exponent | reciprocal; albedo ≤ 1 in closed form | cosine, or the lobe, by mean colours | Lafortune and Willems 1994 |
+//! | [`Plastic`] | eta, reflectance, specular_reflectance, scattering, internal_reflectance | reciprocal; albedo ≤ 1 in closed form | mirror or cosine, by Fresnel and mean colours | Mitsuba, plastic; Wolff 1994 |
+//! | [`RoughConductor`] | eta, k, distribution, alpha_x, alpha_y, masking, specular_reflectance | reciprocal; albedo ≤ 1 | visible normals | Walter et al. 2007; Heitz 2014, 2018; Dupuy and Benyoub 2023 |
+//! | [`RoughCoupled`] | r0, rm, distribution, alpha_x, alpha_y, masking | reciprocal; albedo ≤ 1.017 | mixture of visible normals and cosine | Shirley et al. 1997, section 3; Walter et al. 2007 |
+//! | [`RoughDielectric`] | eta, distribution, alpha_x, alpha_y, masking, specular_reflectance, specular_transmittance | reciprocal up to η²; albedo ≤ 1 | visible normals, reflection with probability F | Walter et al. 2007; Heitz and d'Eon 2014 |
+//! | [`RoughPlastic`] | eta, distribution, alpha, masking, reflectance, specular_reflectance, scattering, internal_reflectance | reciprocal; albedo ≤ 1 | mixture of visible normals and cosine | Mitsuba, roughplastic |
+//! | [`SmoothConductor`] | eta, k, specular_reflectance | reciprocal; albedo ≤ 1 in closed form | delta | Born and Wolf, section 14.2 |
+//! | [`SmoothDielectric`] | eta, specular_reflectance, specular_transmittance | reciprocal up to η²; albedo ≤ 1 in closed form | delta, reflection with probability F | Born and Wolf, section 1.5 |
+//! | [`ThinDielectric`] | eta, specular_reflectance, specular_transmittance | reciprocal; albedo ≤ 1 in closed form | delta, reflection with probability 2F/(1 + F) | Mitsuba, thindielectric |
+//! | [`TwoSided`] | front, back | reciprocal; albedo ≤ 1 | that of the side | Mitsuba, twosided |
+//! <!-- end models -->
 //!
 //! [`StochasticLayers`] is no model but a reference: any interface over any base, followed bounce by bounce.
 //!
-//! [`registry::MODELS`] is the same table with domains, laws and sources, as data. Below the models lie
+//! [`registry::MODELS`] is the same table with the domains of the parameters, as data. Below the models lie
 //! [`fresnel`], [`microfacet`], [`fon`], [`PhongHalfVectors`] and [`ClippedCosine`], usable alone. Beside them,
 //! [`Absorption`] is what happens inside a medium and [`radiometry`] what lights do to a surface.
 //!
@@ -62,11 +78,12 @@
 //!
 //! # Features
 //! `std` (default) and `libm` choose the float functions; `libm` wins and gives the same bits on every
-//! target. `arch` makes `libm` faster without `std`.
+//! target. `arch` makes `libm` faster without `std`. `alloc` adds the module `named`, models and functions by name
+//! for files and command lines, and `serde` reads such descriptions from JSON and other formats.
 //!
 //! # Non-goals
-//! No textures, no world space, no normal maps: those belong to a scene. No polarisation. No
-//! multiple scattering between facets yet: rough models lose what it would return.
+//! No textures, no world space, no normal maps: those belong to a scene. No polarisation. Rough
+//! models lose what scatters more than once between facets, but for those that say otherwise.
 #![no_std]
 #![forbid(unsafe_code)]
 #![allow(
@@ -77,7 +94,7 @@
 #[cfg(any(feature = "std", test))]
 extern crate std;
 
-#[cfg(test)]
+#[cfg(any(feature = "alloc", test))]
 extern crate alloc;
 
 mod absorption;
@@ -90,6 +107,8 @@ pub mod fresnel;
 mod laws;
 mod layered;
 pub mod microfacet;
+#[cfg(feature = "alloc")]
+pub mod named;
 mod param;
 mod phong;
 pub mod quadrature;
@@ -119,7 +138,9 @@ pub use phong::{
     AshikhminShirley, AshikhminShirleyDiffuse, AshikhminShirleySampling, AshikhminShirleySpecular,
     Phong, PhongHalfVectors,
 };
-pub use rough::{Conductor, Dielectric, RoughConductor, RoughDielectric};
+pub use rough::{
+    Conductor, Dielectric, KullaContyConductor, RoughConductor, RoughDielectric, TurquinConductor,
+};
 pub use smooth::{AbsorbingSlab, Null, SmoothConductor, SmoothDielectric, ThinDielectric};
 
 /// Runs the README's example.

@@ -11,9 +11,9 @@ pub enum Reciprocity {
     UpToSquaredIndex,
     /// Not symmetric, by the model's own definition.
     NonReciprocal {
-        /// `|f(a, b) − f(b, a)| / max(f(a, b), f(b, a))` for a the normal and b at cos θ = 0.1, the same for
+        /// `|f(a, b) − f(b, a)| / max(f(a, b), f(b, a))` for a the normal and b at cos θ = 0.1, where it is the same for
         /// all parameters with which f is not 0 for both.
-        residual: f64,
+        residual: Option<f64>,
     },
 }
 
@@ -97,15 +97,17 @@ pub(crate) mod parameter {
     pub(crate) const ALPHA_Y: ParameterInfo = named("alpha_y", "in [1e-8, 1e4]");
     pub(crate) const DISTRIBUTION: ParameterInfo =
         named("distribution", "GGX, Beckmann (exact or Walter's fit)");
+    pub(crate) const TABULATED_ALPHA: ParameterInfo =
+        named("alpha", "in [1e-8, 1]; Beckmann height-correlated only");
     pub(crate) const MASKING: ParameterInfo = named("masking", "height-correlated, separable");
     pub(crate) const SCATTERING: ParameterInfo = named("scattering", "linear, non-linear");
+    pub(crate) const INTERNAL: ParameterInfo = named("internal_reflectance", "exact, Mitsuba");
     pub(crate) const ROUGHNESS: ParameterInfo = named("roughness", "in [0, 1]");
     pub(crate) const NU: ParameterInfo = named("nu", "in [0, 1e12]");
     pub(crate) const NV: ParameterInfo = named("nv", "in [0, 1e12]");
     pub(crate) const RS: ParameterInfo = named("rs", "each channel in [0, 1]");
     pub(crate) const RD: ParameterInfo = named("rd", "each channel in [0, 1]");
     pub(crate) const SAMPLING: ParameterInfo = named("sampling", "see the type");
-    pub(crate) const INTERNAL: ParameterInfo = named("internal reflectance", "exact, Mitsuba");
 }
 
 /// Every type that implements [`Bsdf`](crate::Bsdf), in alphabetical order of the names; each
@@ -125,6 +127,7 @@ pub const MODELS: &[ModelInfo] = &[
     diffuse::diffuse_transmitter::INFO,
     diffuse::eon::INFO,
     diffuse::eon::INFO_APPROXIMATE,
+    rough::kulla_conty::INFO,
     diffuse::lambert::INFO,
     layered::layered_fresnel::INFO,
     layered::layered_linear::INFO,
@@ -142,6 +145,7 @@ pub const MODELS: &[ModelInfo] = &[
     smooth::smooth_conductor::INFO,
     smooth::smooth_dielectric::INFO,
     smooth::thin_dielectric::INFO,
+    rough::turquin::INFO,
     adapter::two_sided::INFO,
 ];
 

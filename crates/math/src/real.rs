@@ -4,8 +4,8 @@ use core::fmt::{Debug, Display};
 use core::iter::Sum;
 use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 
-use crate::backend;
 use crate::vector::Vector3;
+use crate::{backend, eighth_turn};
 
 mod sealed {
     pub trait Sealed {}
@@ -120,6 +120,11 @@ pub trait Real:
     fn sin_cos(self) -> (Self, Self) {
         (self.sin(), self.cos())
     }
+    /// Sine and cosine of `self` eighths of a turn, `π/4 · x`, for `|x| ≤ 1`; some finite numbers
+    /// for other finite `x`.
+    ///
+    /// Within 0.54 ulp for `f32`, 2 ulp for `f64`.
+    fn sin_cos_eighth_turn(self) -> (Self, Self);
     /// Tangent of an angle in radians.
     fn tan(self) -> Self;
     /// Arc sine in radians; NaN outside `[−1, 1]`.
@@ -177,7 +182,7 @@ pub trait Real:
 }
 
 macro_rules! real {
-    ($float:ident, $vec3:ty, $digits:expr, $erf:path, $erfc:path) => {
+    ($float:ident, $vec3:ty, $sin_cos_eighth_turn:path, $erf:path, $erfc:path) => {
         impl Real for $float {
             type Vec3 = $vec3;
 
@@ -243,6 +248,10 @@ macro_rules! real {
             #[inline(always)]
             fn cos(self) -> Self {
                 backend::$float::cos(self)
+            }
+            #[inline(always)]
+            fn sin_cos_eighth_turn(self) -> (Self, Self) {
+                $sin_cos_eighth_turn(self)
             }
             #[inline(always)]
             fn tan(self) -> Self {
@@ -320,8 +329,8 @@ macro_rules! real {
     };
 }
 
-real!(f32, glam::Vec3, 24, libm_crate::erff, libm_crate::erfcf);
-real!(f64, glam::DVec3, 53, libm_crate::erf, libm_crate::erfc);
+real!(f32, glam::Vec3, eighth_turn::sin_cos_f32, libm_crate::erff, libm_crate::erfcf);
+real!(f64, glam::DVec3, eighth_turn::sin_cos_f64, libm_crate::erf, libm_crate::erfc);
 
 mod difference_of_products {
     use super::backend;

@@ -63,7 +63,7 @@ pub fn erf_inv<T: Real>(x: T) -> T {
 /// assert!((gamma_half_step(0.5_f64) - std::f64::consts::PI.sqrt()).abs() < 1e-14);
 /// ```
 pub fn gamma_half_step<T: Real>(x: T) -> T {
-    if !(x > T::ZERO) {
+    if x.is_nan() || x <= T::ZERO {
         return T::NAN;
     }
     let (mut x, mut steps) = (x, T::ONE);
@@ -90,7 +90,7 @@ const GAMMA_HALF_STEP: [f64; 5] =
 /// For integer 2p it is the distribution of the cosine in the power lobes of reflection models; for large p it tends to
 /// `erf √(p y)`.
 ///
-/// * `p`: at least ½, any size; NaN below.
+/// * `p`: at least ½, finite, of any size; NaN below.
 /// * `y`: in `[0, 1]`; limited to it, and NaN counts as 0.
 ///
 /// # Precision
@@ -107,7 +107,7 @@ const GAMMA_HALF_STEP: [f64; 5] =
 /// assert!((incomplete_beta_half(1.0_f64, 0.25) - 0.5).abs() < 1e-15);
 /// ```
 pub fn incomplete_beta_half<T: Real>(p: T, y: T) -> T {
-    if !(p >= T::HALF) {
+    if p.is_nan() || p < T::HALF {
         return T::NAN;
     }
     let y = y.clamp_to(T::ZERO, T::ONE);

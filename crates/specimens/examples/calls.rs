@@ -5,8 +5,8 @@
 //! Prints the nanoseconds per call. `nothing` prepares the model and reads the inputs, as all do, and calls
 //! nothing; `rgb` is `f32` in three channels.
 
+use core::hint::black_box;
 use std::env;
-use std::hint::black_box;
 use std::process::ExitCode;
 use std::time::Instant;
 
@@ -78,7 +78,7 @@ impl<C: Spectrum> Visitor<C> for Calls {
                 self.time(|i: &Inputs<C::Real>| _ = black_box(model.eval_pdf(i.wo, i.wi)))
             }
             "sample" => self.time(|i: &Inputs<C::Real>| {
-                _ = black_box(model.sample(i.wo, i.u[2], [i.u[0], i.u[1]]))
+                _ = black_box(model.sample(i.wo, i.u[2], [i.u[0], i.u[1]]));
             }),
             _ => return None,
         })

@@ -9,8 +9,11 @@ mod parameters;
 mod phong;
 mod rough;
 mod smooth;
+mod textbook;
 
 use etendue_brdf::registry::{MODELS, ModelInfo};
+
+pub use parameters::{Surface, surfaces};
 
 use crate::subject::Case;
 
@@ -54,6 +57,8 @@ pub fn models() -> Vec<ModelCases> {
         ),
         of("smooth-conductor", smooth::smooth_conductor, smooth::smooth_conductor),
         of("rough-conductor", rough::rough_conductor, rough::rough_conductor),
+        of("kulla-conty-conductor", rough::kulla_conty, rough::kulla_conty),
+        of("turquin-conductor", rough::turquin, rough::turquin),
         of("conductor", rough::conductor, rough::conductor),
         of("smooth-dielectric", smooth::smooth_dielectric, smooth::smooth_dielectric),
         of("thin-dielectric", smooth::thin_dielectric, smooth::thin_dielectric),

@@ -1,5 +1,7 @@
 //! Powers of cosines.
 
+use core::f64::consts::FRAC_PI_3;
+
 use etendue_brdf::{
     AshikhminShirley, AshikhminShirleyDiffuse, AshikhminShirleySampling, AshikhminShirleySpecular,
     Exponent, Phong,
@@ -53,14 +55,14 @@ pub(super) fn ashikhmin_shirley<T: Scalar>() -> Vec<Case<T>> {
     };
     let mixture = |parameters| case(parameters, AshikhminShirleySampling::Mixture);
     let mut cases = vec![
-        mixture([1.0, 1.0, 1.0, 0.0]).published(&[(0.0, 0.250), (1.047_2, 0.375)]),
-        mixture([1.0, 1.0, 0.0, 1.0]).published(&[(0.0, 0.969), (1.047_2, 0.767)]),
+        mixture([1.0, 1.0, 1.0, 0.0]).published(&[(0.0, 0.250), (FRAC_PI_3, 0.375)]),
+        mixture([1.0, 1.0, 0.0, 1.0]).published(&[(0.0, 0.969), (FRAC_PI_3, 0.767)]),
         mixture([10.0, 10.0, 0.5, 1.0]).published(&[
             (0.0, 0.832),
             (0.795_4, 0.772),
             (1.266_1, 0.585),
         ]),
-        mixture([100.0, 100.0, 1.0, 0.0]).published(&[(0.0, 0.961), (1.047_2, 0.846)]),
+        mixture([100.0, 100.0, 1.0, 0.0]).published(&[(0.0, 0.961), (FRAC_PI_3, 0.846)]),
         mixture([300.0, 1.0, 0.04, 0.5]),
         mixture([1e4, 1.0, 0.04, 0.5]),
         mixture([1e6, 1e6, 0.04, 1.0]),

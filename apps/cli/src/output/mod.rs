@@ -1,13 +1,12 @@
 //! Writing pictures: the format by extension, checked before rendering, replaced atomically.
 
-use std::io::{BufWriter, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use etendue_renderer::Image;
-use tempfile::NamedTempFile;
 
 use crate::failure::Failure;
 
+mod destination;
 mod exr;
 mod hdr;
 mod metadata;
@@ -15,6 +14,7 @@ mod pfm;
 mod png;
 
 pub(crate) use self::exr::Precision;
+pub(crate) use destination::Destination;
 pub(crate) use metadata::Metadata;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -50,10 +50,10 @@ pub(crate) struct Encoding {
     pub(crate) exposure: f32,
 }
 
-/// A destination that has been found writable.
+/// A picture's destination, found writable, and its format.
 #[derive(Debug)]
 pub(crate) struct Output {
-    path: PathBuf,
+    destination: Destination,
     format: Format,
 }
 
@@ -61,23 +61,14 @@ impl Output {
     /// Checks the extension and that a file can be created beside the destination.
     pub(crate) fn check(path: &Path) -> Result<Self, Failure> {
         let format = Format::of(path)?;
-        if path.is_dir() {
-            return Err(Failure::write(path, "it is a directory"));
-        }
-        if path.metadata().is_ok_and(|m| m.permissions().readonly()) {
-            return Err(Failure::write(path, "the file is read-only"));
-        }
-        let output = Self { path: path.to_path_buf(), format };
-        output.temporary()?;
-        Ok(output)
+        Ok(Self { destination: Destination::check(path)?, format })
     }
 
     pub(crate) fn path(&self) -> &Path {
-        &self.path
+        self.destination.path()
     }
 
-    /// Writes a temporary file in the same directory and renames it: the destination is either
-    /// untouched or complete.
+    /// Encodes and writes the picture; the destination is either untouched or complete.
     pub(crate) fn write(
         &self,
         image: &Image,
@@ -91,31 +82,8 @@ impl Output {
             Format::Png => png::encode(&mut bytes, image, encoding.exposure),
             Format::Pfm => pfm::encode(&mut bytes, image),
         }
-        .map_err(|error| Failure::write(&self.path, error))?;
-        let mut file = self.temporary()?;
-        let fail = |error| Failure::write(&self.path, error);
-        let mut writer = BufWriter::new(file.as_file_mut());
-        writer.write_all(&bytes).and_then(|()| writer.flush()).map_err(fail)?;
-        drop(writer);
-        file.as_file().sync_all().map_err(fail)?;
-        file.persist(&self.path).map_err(|e| fail(e.error))?;
-        Ok(())
-    }
-
-    fn temporary(&self) -> Result<NamedTempFile, Failure> {
-        let directory = match self.path.parent() {
-            Some(parent) if !parent.as_os_str().is_empty() => parent,
-            _ => Path::new("."),
-        };
-        let mut builder = tempfile::Builder::new();
-        builder.prefix(".etendue-").suffix(".tmp");
-        #[cfg(unix)]
-        {
-            use std::os::unix::fs::PermissionsExt;
-            // Temporary files are private by default; a picture is an ordinary file. The umask still applies.
-            builder.permissions(std::fs::Permissions::from_mode(0o666));
-        }
-        builder.tempfile_in(directory).map_err(|error| Failure::write(&self.path, error))
+        .map_err(|error| Failure::write(self.path(), error))?;
+        self.destination.write(&bytes)
     }
 }
 

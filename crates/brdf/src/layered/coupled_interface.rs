@@ -99,6 +99,6 @@ impl<C: Spectrum> CoupledInterface<C> {
 
 /// The interface as registry entries list it.
 pub(super) const PARAMETER: ParameterInfo =
-    named("interface", "Schlick with r0 in [0, 1], dielectric with eta in [1, 1e4]");
+    named("r0", "each channel in [0, 1] (Schlick); or instead eta in [1, 1e4] (exact dielectric)");
 /// The base likewise.
 pub(super) const MATTE: ParameterInfo = named("rm", "each channel in [0, 1]");

@@ -95,7 +95,7 @@ pub(crate) const INFO: ModelInfo = ModelInfo {
         parameter::named("rd", "each channel in [0, 1]"),
     ],
     // 1 − q(0.1)/q(1), q = 1 − (1 − cos θ)⁵.
-    reciprocity: Reciprocity::NonReciprocal { residual: 0.590_49 },
+    reciprocity: Reciprocity::NonReciprocal { residual: Some(0.590_49) },
     energy: Energy::Gains {
         maximum: 1.952_381,
         at: "r0 0, rd 1, grazing viewer: 1 + 20/21; a beam of light conserves",

@@ -126,6 +126,23 @@ pub fn projected_area_walter<T: Real>(w: Vec3<T>, alpha_x: T, alpha_y: T) -> T {
     s * (T::ONE + a * (T::lit(2.276) + a * T::lit(2.577))) / (T::lit(3.535) + a * T::lit(2.181))
 }
 
+/// A facet normal, seen or not, with density `D(h) hz`.
+///
+/// ```text
+/// h = normalize(αx r cos 2πu₀, αy r sin 2πu₀, 1),  r = √(−ln(1 − u₁))
+/// ```
+///
+/// `u`: uniforms in `[0, 1)`. `None` where the vector underflows.
+///
+/// # Source
+/// B. Walter et al., EGSR 2007, eqs. 28 and 29, as a vector instead of angles.
+#[inline]
+pub fn sample_normal<T: Real>(alpha_x: T, alpha_y: T, u: [T; 2]) -> Option<Vec3<T>> {
+    let radius = (-(-u[1]).ln_1p()).safe_sqrt();
+    let (sin, cos) = (T::TWO * T::PI * u[0]).sin_cos();
+    Vec3::<T>::new(alpha_x * radius * cos, alpha_y * radius * sin, T::ONE).try_normalize()
+}
+
 /// A facet normal visible from `wo`, with density `D(h) (wo·h) / σ(wo)`, σ exact.
 ///
 /// With `(s, z)` the unit vector along `(√((αx x)² + (αy y)²), z)`, the slope p along the stretched
@@ -150,7 +167,7 @@ pub fn projected_area_walter<T: Real>(w: Vec3<T>, alpha_x: T, alpha_y: T) -> T {
 /// Normals", EGSR 2014; start value by W. Jakob, "An Improved Visible Normal Sampling Routine for the
 /// Beckmann Distribution", 2014. Written with sine and cosine instead of their quotients, so that
 /// grazing and normal incidence need no special case.
-#[inline]
+#[inline(never)] // a call costs nothing beside Newton's method, and leaves GGX beside it inlined
 pub fn sample_visible_normal<T: Real>(
     wo: Vec3<T>,
     alpha_x: T,

@@ -9,11 +9,24 @@
 //! V = G2 / (4 cos θi cos θo) = 1 / (4 σi σo)                                      separable
 //!                            = 1 / (4 (cos θi σo + cos θo σi − cos θi cos θo))    height-correlated
 //! ```
+//!
+//! | question | exact | cheaper | reference |
+//! | --- | --- | --- | --- |
+//! | visibility of GGX | [`Microfacets::visibility`] | [`ggx::visibility_hammon`], up to 29 % dark | |
+//! | Smith's Λ of Beckmann | [`beckmann::lambda`] | [`beckmann::projected_area_walter`], 0.35 % | |
+//! | energy that single scattering loses | [`facet_loss`] | [`FacetLoss`], 1e-3 (GGX) | [`walk`] |
+//!
+//! How normals are drawn is a choice of its own: [`NormalSampling`].
 
+mod albedo;
 pub mod beckmann;
 pub mod ggx;
+pub mod sampling;
 mod smith;
+pub mod walk;
 
+pub use albedo::{FacetLoss, LossTable, facet_loss};
+pub use sampling::{AllNormals, BoundedCaps, NormalSampling, ProjectedDisk, VisibleNormals};
 pub use smith::{Masking, Microfacets};
 
 /// Distribution of facet normals.

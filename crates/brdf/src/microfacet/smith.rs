@@ -44,6 +44,24 @@ impl<T: Real> Microfacets<T> {
         Self::new(Distribution::Ggx, alpha, alpha, Masking::HeightCorrelated)
     }
 
+    /// Distribution of the facets' normals.
+    #[inline(always)]
+    pub fn distribution(&self) -> Distribution {
+        self.distribution
+    }
+
+    /// How shadowing and masking are combined.
+    #[inline(always)]
+    pub fn masking(&self) -> Masking {
+        self.masking
+    }
+
+    /// The widths `[αx, αy]`.
+    #[inline(always)]
+    pub fn widths(&self) -> [T; 2] {
+        [self.alpha_x, self.alpha_y]
+    }
+
     /// Density of facet normals D(h); see [`ggx::ndf`] and [`beckmann::ndf`].
     #[inline]
     pub fn ndf(&self, h: Vec3<T>) -> T {
@@ -127,12 +145,18 @@ impl<T: Real> Microfacets<T> {
     /// `G2(wo, wi) / G1(wo)` with the exact G1: the weight of a visible normal drawn for `wo`.
     #[inline]
     pub fn weight(&self, wo: Vec3<T>, wi: Vec3<T>) -> T {
-        T::lit(4.0) * wi.z().abs() * self.projected_area(wo) * self.visibility(wo, wi)
+        self.weight_of_area(wo, wi, self.projected_area(wo))
+    }
+
+    /// `4 cos θi A V`: the weight of a reflection at a normal drawn with density `D(h) (wo·h) / A`.
+    #[inline]
+    pub fn weight_of_area(&self, wo: Vec3<T>, wi: Vec3<T>, area: T) -> T {
+        T::lit(4.0) * wi.z().abs() * area * self.visibility(wo, wi)
     }
 
     /// A facet normal visible from `wo` (above the surface); see [`ggx::sample_visible_normal`] and
     /// [`beckmann::sample_visible_normal`].
-    #[inline]
+    #[inline(always)]
     pub fn sample_visible_normal(&self, wo: Vec3<T>, u: [T; 2]) -> Option<Vec3<T>> {
         match self.distribution {
             Distribution::Ggx => ggx::sample_visible_normal(wo, self.alpha_x, self.alpha_y, u),

@@ -2,10 +2,14 @@
 
 pub(crate) mod conductor;
 pub(crate) mod dielectric;
+pub(crate) mod kulla_conty;
 pub(crate) mod rough_conductor;
 pub(crate) mod rough_dielectric;
+pub(crate) mod turquin;
 
 pub use conductor::Conductor;
 pub use dielectric::Dielectric;
+pub use kulla_conty::KullaContyConductor;
 pub use rough_conductor::RoughConductor;
 pub use rough_dielectric::RoughDielectric;
+pub use turquin::TurquinConductor;

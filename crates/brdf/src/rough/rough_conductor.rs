@@ -1,13 +1,17 @@
 //! Rough metal: microfacet reflection.
 
+use core::marker::PhantomData;
+
 use etendue_math::{Real, Spectrum, Vector3};
 
 use crate::bsdf::{above, both_above};
 use crate::direction::{half_vector, reflect_about};
+use crate::microfacet::{NormalSampling, VisibleNormals};
 use crate::registry::{Albedo, Energy, ModelInfo, Reciprocity, parameter};
 use crate::smooth::smooth_conductor::conductor_reflectance;
 use crate::{
-    Bsdf, BsdfReal, BsdfVec, ComplexIor, Density, Lobes, Microfacets, Reflectance, Sample,
+    Bsdf, BsdfReal, BsdfVec, ComplexIor, Density, Lobes, Microfacets, ParameterError, Reflectance,
+    Sample,
 };
 
 /// Rough conductor: single scattering from microfacets with conductor Fresnel.
@@ -15,14 +19,16 @@ use crate::{
 /// ```text
 /// h = normalize(wo + wi)
 /// f = ks D(h) F(wo·h) V(wo, wi),  V = G2 / (4 cos θo cos θi)
-/// pdf = D(h) / (4 σ(wo))
-/// weight = ks F(wo·h) G2(wo, wi) / G1(wo)
+/// pdf = D(h) / (4 A),                      A = σ(wo) for visible normals
+/// weight = ks F(wo·h) 4 cos θi A V           = ks F G2(wo, wi) / G1(wo) for visible normals
 /// ```
 ///
 /// * Laws: reciprocal; directional albedo ≤ 1, and below it by what would scatter more than once
-///   (0.307 is left of 1 for GGX, α = 1, F = 1 at normal incidence).
-/// * Sampling: visible normals, two uniforms; `None` from below and where the reflected direction
-///   falls below, which is a loss of the model and why the density integrates to less than 1.
+///   (0.307 is left of 1 for GGX, α = 1, F = 1 at normal incidence);
+///   [`KullaContyConductor`](crate::KullaContyConductor) returns that.
+/// * Sampling: normals by the strategy `S`, visible ones unless [`sampled_by`](Self::sampled_by) another
+///   (see [`NormalSampling`]), two uniforms; `None` from below and where the reflected direction falls
+///   below, which is a loss of the model and why the density integrates to less than 1.
 ///
 /// # Precision
 /// A few ulp times the condition of the problem.
@@ -45,17 +51,44 @@ use crate::{
 /// # Ok::<(), etendue_brdf::ParameterError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct RoughConductor<C: Spectrum> {
+pub struct RoughConductor<C: Spectrum, S = VisibleNormals> {
     ior: ComplexIor<C>,
     specular_reflectance: C,
     facets: Microfacets<C::Real>,
+    sampling: PhantomData<S>,
 }
 
 impl<C: Spectrum> RoughConductor<C> {
-    /// Metal with complex index `ior` and the surface `facets`.
+    /// Metal with complex index `ior` and the surface `facets`, sampled by visible normals.
     #[inline]
     pub fn new(ior: ComplexIor<C>, facets: Microfacets<C::Real>) -> Self {
-        Self { ior, specular_reflectance: C::white(), facets }
+        Self { ior, specular_reflectance: C::white(), facets, sampling: PhantomData }
+    }
+}
+
+impl<C: Spectrum, S: NormalSampling<C::Real>> RoughConductor<C, S> {
+    /// The same surface with its normals drawn by another strategy.
+    ///
+    /// ```
+    /// use etendue_brdf::microfacet::BoundedCaps;
+    /// use etendue_brdf::{Alpha, ComplexIor, Microfacets, RoughConductor};
+    /// let facets = Microfacets::ggx(Alpha::new(0.5_f64)?);
+    /// let model = RoughConductor::<f64>::new(ComplexIor::perfect(), facets);
+    /// let bounded = model.sampled_by::<BoundedCaps>()?;
+    /// # Ok::<(), etendue_brdf::ParameterError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`ParameterError`] where the strategy does not exist for the distribution of the facets.
+    pub fn sampled_by<R: NormalSampling<C::Real>>(
+        self,
+    ) -> Result<RoughConductor<C, R>, ParameterError> {
+        if !R::supports(self.facets.distribution()) {
+            let domain = "used with GGX facets (this one does not exist for Beckmann's)";
+            return Err(ParameterError { parameter: "sampling strategy", value: 0.0, domain });
+        }
+        let Self { ior, specular_reflectance, facets, .. } = self;
+        Ok(RoughConductor { ior, specular_reflectance, facets, sampling: PhantomData })
     }
 
     /// The same with its reflection scaled by `ks`, a factor without physical meaning.
@@ -64,13 +97,25 @@ impl<C: Spectrum> RoughConductor<C> {
         Self { specular_reflectance: ks.value(), ..self }
     }
 
+    /// Complex index.
+    #[inline(always)]
+    pub fn ior(&self) -> ComplexIor<C> {
+        self.ior
+    }
+
+    /// The surface.
+    #[inline(always)]
+    pub fn facets(&self) -> &Microfacets<C::Real> {
+        &self.facets
+    }
+
     #[inline(always)]
     fn reflectance(&self, cos: C::Real) -> C {
         conductor_reflectance(self.ior, cos) * self.specular_reflectance
     }
 }
 
-impl<C: Spectrum> Bsdf for RoughConductor<C> {
+impl<C: Spectrum, S: NormalSampling<C::Real>> Bsdf for RoughConductor<C, S> {
     type Color = C;
 
     #[inline]
@@ -87,7 +132,7 @@ impl<C: Spectrum> Bsdf for RoughConductor<C> {
         let Some((h, cos)) = half_vector(wo, wi) else { return nothing };
         let d = self.facets.ndf(h);
         let lobe = (d * self.facets.visibility(wo, wi)).min(C::Real::MAX);
-        (self.reflectance(cos).scale(lobe), reflection_pdf(&self.facets, wo, d))
+        (self.reflectance(cos).scale(lobe), density(d, S::area(&self.facets, wo, h, cos)))
     }
 
     /// Without what the value alone needs: of the provided one the optimiser does not remove it.
@@ -110,13 +155,15 @@ impl<C: Spectrum> Bsdf for RoughConductor<C> {
         if !above(wo) {
             return None;
         }
-        let h = self.facets.sample_visible_normal(wo, u)?;
+        let h = S::sample(&self.facets, wo, u)?;
         let wi = reflect_about(wo, h);
         if !above(wi) {
             return None;
         }
-        let weight = self.reflectance(wo.dot(h)).scale(self.facets.weight(wo, wi));
-        let pdf = reflection_pdf(&self.facets, wo, self.facets.ndf(h));
+        let cos = wo.dot(h);
+        let area = S::area(&self.facets, wo, h, cos);
+        let weight = self.reflectance(cos).scale(self.facets.weight_of_area(wo, wi, area));
+        let pdf = density(self.facets.ndf(h), area);
         if weight.is_black() || !(pdf > C::Real::ZERO) {
             return None;
         }
@@ -131,7 +178,13 @@ pub(crate) fn reflection_pdf<T: Real>(
     wo: etendue_math::Vec3<T>,
     d: T,
 ) -> T {
-    let area = T::lit(4.0) * facets.projected_area(wo);
+    density(d, facets.projected_area(wo))
+}
+
+/// Density of the direction reflected at a normal with density `D (wo·h) / A`: `D / (4 A)`.
+#[inline(always)]
+fn density<T: Real>(d: T, area: T) -> T {
+    let area = T::lit(4.0) * area;
     if area > T::ZERO { (d / area).min(T::MAX) } else { T::ZERO }
 }
 
@@ -152,8 +205,8 @@ pub(crate) const INFO: ModelInfo = ModelInfo {
     energy: Energy::Conserves,
     lobes: Lobes::CONTINUOUS,
     albedo: Albedo::Quadrature,
-    density: "visible normals",
-    source: "Walter et al. 2007; Heitz 2014, 2018; Dupuy and Benyoub 2023",
+    density: "visible normals; bounded ones or all by choice",
+    source: "Walter et al. 2007; Heitz 2014, 2018; Dupuy and Benyoub 2023; Eto and Tokuyoshi 2023",
 };
 
 #[cfg(test)]

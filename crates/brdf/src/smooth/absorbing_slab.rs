@@ -120,7 +120,7 @@ pub(crate) const INFO: ModelInfo = ModelInfo {
     type_name: "AbsorbingSlab",
     parameters: &[
         parameter::ETA,
-        parameter::named("optical depth", "each channel finite, not negative"),
+        parameter::named("optical_depth", "each channel finite, not negative"),
     ],
     reciprocity: Reciprocity::Reciprocal,
     energy: Energy::Conserves,

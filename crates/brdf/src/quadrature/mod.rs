@@ -5,6 +5,10 @@ use etendue_math::{Real, Spectrum, Vec3, Vector3};
 
 use crate::{Bsdf, BsdfReal, BsdfVec};
 
+mod adaptive_albedo;
+
+pub use adaptive_albedo::{SideAlbedos, adaptive_albedo};
+
 /// Directional albedo of the continuous part of a model.
 ///
 /// ```text
@@ -14,8 +18,8 @@ use crate::{Bsdf, BsdfReal, BsdfVec};
 /// with `N` Gauss–Legendre nodes in t, `cos θ = t (2 − t)`, and `2 N` evenly spaced azimuths.
 ///
 /// # Precision
-/// 1e-5 with N = 64 for lobes wider than about 0.3; narrow lobes need N ≫ 1/α. Delta lobes are not
-/// seen. `4 N²` evaluations: for tests and audits.
+/// 1e-5 with N = 64 for lobes wider than about 0.3; narrow lobes need N ≫ 1/α, or [`adaptive_albedo`]. Delta
+/// lobes are not seen. `4 N²` evaluations: for tests and audits.
 ///
 /// # Examples
 /// ```
