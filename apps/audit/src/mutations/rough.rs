@@ -27,8 +27,8 @@ pub(super) const MUTATIONS: &[Mutation] = &[
     Mutation {
         fault: "refraction without its Jacobian η²: missing factor",
         file: "crates/brdf/src/rough/rough_dielectric.rs",
-        find: "let pdf = d * eta * eta / self.facets.projected_area(wo);",
-        replace: "let pdf = d / self.facets.projected_area(wo);",
+        find: "let pdf = d * eta * eta / facets.projected_area(wo);",
+        replace: "let pdf = d / facets.projected_area(wo);",
         filters: &["rough-dielectric"],
     },
     Mutation {
@@ -42,7 +42,7 @@ pub(super) const MUTATIONS: &[Mutation] = &[
         fault: "refraction with F for 1 − F in value and weight alike",
         file: "crates/brdf/src/rough/rough_dielectric.rs",
         find: "let t = index.transmittance_of_pair(cos_o, eta * cos_i);",
-        replace: "let t = C::Real::ONE - index.transmittance_of_pair(cos_o, eta * cos_i);",
+        replace: "let t = T::ONE - index.transmittance_of_pair(cos_o, eta * cos_i);",
         filters: &["rough-dielectric"],
     },
     Mutation {
@@ -55,7 +55,7 @@ pub(super) const MUTATIONS: &[Mutation] = &[
     Mutation {
         fault: "facets seen from behind: lost test",
         file: "crates/brdf/src/rough/rough_dielectric.rs",
-        find: "if !(cos_o > C::Real::ZERO && cos_i > C::Real::ZERO) {",
+        find: "if !(cos_o > T::ZERO && cos_i > T::ZERO) {",
         replace: "if cos_o.is_nan() || cos_i.is_nan() {",
         filters: &["rough-dielectric"],
     },
