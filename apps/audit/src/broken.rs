@@ -114,34 +114,39 @@ pub(crate) enum MirrorFault {
     HalfProbability,
     /// Refracts without dividing the tangential part by η.
     BentRay,
+    /// Loses three digits of the refracted cosine in `f32` to a detour over a large number.
+    Cancels,
 }
 
-struct Mirror {
+struct Mirror<T> {
     fault: MirrorFault,
+    eta: T,
 }
 
-impl Bsdf for Mirror {
-    type Color = f64;
+impl<T: Scalar> Bsdf for Mirror<T> {
+    type Color = T;
 
     fn lobes(&self) -> Lobes {
         Lobes { delta: true, transmission: true, ..Lobes::default() }
     }
 
-    fn sample(&self, wo: BsdfVec<Self>, u_lobe: f64, _: [f64; 2]) -> Option<Sample<f64>> {
-        const ETA: f64 = 1.5;
-        if wo.z <= 0.0 {
+    fn sample(&self, wo: BsdfVec<Self>, u_lobe: T, _: [T; 2]) -> Option<Sample<T>> {
+        if wo.z() <= T::ZERO {
             return None;
         }
-        let gain = if self.fault == MirrorFault::Gain { 1.05 } else { 1.0 };
-        let p = if self.fault == MirrorFault::HalfProbability { 0.25 } else { 0.5 };
-        let bend = if self.fault == MirrorFault::BentRay { 1.0 } else { ETA };
-        Some(if u_lobe < 0.5 {
-            let wi = Vec3::<f64>::new(-wo.x, -wo.y, wo.z);
-            Sample { wi, weight: gain, density: Density::Delta(p), eta: 1.0 }
+        let (eta, one) = (self.eta, T::ONE);
+        let gain = if self.fault == MirrorFault::Gain { T::lit(1.05) } else { one };
+        let p = T::lit(if self.fault == MirrorFault::HalfProbability { 0.25 } else { 0.5 });
+        let bend = if self.fault == MirrorFault::BentRay { one } else { eta };
+        Some(if u_lobe < T::HALF {
+            let wi = Vec3::<T>::new(-wo.x(), -wo.y(), wo.z());
+            Sample { wi, weight: gain, density: Density::Delta(p), eta: one }
         } else {
-            let (x, y) = (-wo.x / bend, -wo.y / bend);
-            let wi = Vec3::<f64>::new(x, y, -(1.0 - x * x - y * y).sqrt());
-            Sample { wi, weight: 1.0 / (ETA * ETA), density: Density::Delta(0.5), eta: ETA }
+            let (x, y) = (-wo.x() / bend, -wo.y() / bend);
+            let detour = T::lit(if self.fault == MirrorFault::Cancels { 1e4 } else { 0.0 });
+            let z = ((one - x * x - y * y).sqrt() + detour) - detour;
+            let wi = Vec3::<T>::new(x, y, -z);
+            Sample { wi, weight: one / (eta * eta), density: Density::Delta(T::HALF), eta }
         })
     }
 }
@@ -161,7 +166,13 @@ pub(crate) fn laws() -> Laws {
 
 pub(crate) fn case<T: Scalar>(fault: Fault) -> Case<T> {
     let albedo = T::lit(if fault == Fault::EnergyGain { 1.05 } else { 1.0 });
-    Case::new(format!("{fault:?}"), Broken { fault, albedo }).published(&[(0.8, 1.0)])
+    let lambert = |wo: [f64; 3], wi: [f64; 3]| {
+        if wo[2] > 0.0 && wi[2] > 0.0 { core::f64::consts::FRAC_1_PI } else { 0.0 }
+    };
+    Case::new(format!("{fault:?}"), Broken { fault, albedo })
+        .lossless()
+        .published(&[(0.8, 1.0)])
+        .textbook(lambert)
 }
 
 /// Outcome of a check on a model with a fault, in `f64`.
@@ -169,11 +180,14 @@ pub(crate) fn verdict(fault: Fault, check: fn(&Subject<f64>, &Context) -> Outcom
     check(&Subject { laws: &laws(), case: &case(fault) }, &context())
 }
 
+pub(crate) fn mirror<T: Scalar>(fault: MirrorFault) -> Case<T> {
+    Case::new(format!("{fault:?}"), Mirror { fault, eta: T::lit(1.5) })
+}
+
 /// Outcome of a check on a delta model with a fault.
 pub(crate) fn mirror_verdict(
     fault: MirrorFault,
     check: fn(&Subject<f64>, &Context) -> Outcome,
 ) -> Outcome {
-    let case = Case::new(format!("{fault:?}"), Mirror { fault });
-    check(&Subject { laws: &laws(), case: &case }, &context())
+    check(&Subject { laws: &laws(), case: &mirror(fault) }, &context())
 }

@@ -15,12 +15,21 @@ pub struct Budget {
     pub pairs: usize,
     /// Samples per case for pointwise laws of samplers.
     pub draws: usize,
+    /// Inputs per model of the comparison of `f32` with `f64`, over all its cases together.
+    pub swept: u64,
 }
 
 impl Budget {
     /// For `cargo test`: every check on every case, in seconds on a debug-like build.
-    pub const TEST: Self =
-        Self { name: "test", viewers: 1, samples: 1 << 11, pilot: 1 << 9, pairs: 200, draws: 200 };
+    pub const TEST: Self = Self {
+        name: "test",
+        viewers: 1,
+        samples: 1 << 11,
+        pilot: 1 << 9,
+        pairs: 200,
+        draws: 200,
+        swept: 1 << 15,
+    };
     /// The default of the command: well under a minute on two cores.
     pub const SMOKE: Self = Self {
         name: "smoke",
@@ -29,14 +38,16 @@ impl Budget {
         pilot: 1 << 12,
         pairs: 10_000,
         draws: 10_000,
+        swept: 1 << 20,
     };
     /// `--exhaustive`: a long run that looks for what the smoke run has too few points to meet.
     pub const EXHAUSTIVE: Self = Self {
         name: "exhaustive",
         viewers: 24,
-        samples: 1 << 20,
-        pilot: 1 << 14,
-        pairs: 4_000_000,
-        draws: 1_000_000,
+        samples: 1 << 18,
+        pilot: 1 << 13,
+        pairs: 100_000,
+        draws: 100_000,
+        swept: 200_000_000,
     };
 }

@@ -9,9 +9,13 @@
 //! | [`cases`] | which parameters of which model are audited |
 //! | [`generators`] | directions and uniforms, hostile ones included |
 //! | [`checks`] | one law per file, with its tolerance and the reason for it |
+//! | [`sweep`] | `f32` against `f64` over the hostile domain |
+//! | [`furnace`] | laws of microfacets by themselves |
 //! | [`hard_cases`] | single functions where naive forms break, each with that naive form |
 //! | [`partition`], [`cubature`], [`statistics`] | the numerics under the checks |
-//! | [`run`], [`report`] | everything on all cores, printed and as JSON |
+//! | [`run`], [`report`] | everything on all cores, printed, as JSON and as Markdown |
+//! | [`mutations`] | bugs that the audit must find |
+//! | [`model_table`], [`document`] | what programs write in documents |
 //!
 //! # Non-goals
 //! No speed is measured, and no picture is looked at.
@@ -22,12 +26,19 @@ pub mod budget;
 pub mod cases;
 pub mod checks;
 pub mod cubature;
+pub mod document;
+pub mod filter;
+pub mod furnace;
 pub mod generators;
 pub mod hard_cases;
 pub mod measure;
+pub mod model_table;
+pub mod mutations;
 pub mod partition;
+pub mod progress;
 pub mod report;
 pub mod run;
 pub mod scalar;
 pub mod statistics;
 pub mod subject;
+pub mod sweep;

@@ -32,6 +32,14 @@ impl Measurement {
 }
 
 impl Outcome {
+    /// What was measured, if anything was.
+    pub fn measurement(&self) -> Option<&Measurement> {
+        match self {
+            Self::NotApplicable(_) => None,
+            Self::Measured(m) => Some(m),
+        }
+    }
+
     /// False if the check failed; a check that does not apply does not fail.
     pub fn passed(&self) -> bool {
         match self {

@@ -1,16 +1,22 @@
 //! Every check on every case, on all cores.
 
+use core::time::Duration;
+
 use etendue_brdf::registry::MODELS;
 use rayon::prelude::*;
 
 use crate::budget::Budget;
-use crate::cases::{self, ModelCases};
-use crate::checks::{self, Context, PRECISION};
+use crate::cases::{self, ModelCases, Surface};
+use crate::checks::{self, Context};
+use crate::filter::Filter;
+use crate::furnace;
 use crate::hard_cases::HARD_CASES;
 use crate::measure::{Outcome, Worst};
+use crate::progress::Progress;
 use crate::scalar::Scalar;
 use crate::statistics::sidak;
 use crate::subject::{Case, Laws, Subject};
+use crate::sweep::sweep;
 
 /// Probability that a sound implementation fails any of the χ² tests of a run. Seeds are fixed:
 /// this was decided once, when the seeds were chosen, and does not vary from run to run.
@@ -29,6 +35,8 @@ pub struct Record {
     pub check: &'static str,
     /// What came of it.
     pub outcome: Outcome,
+    /// Of a hard case, the worst figure of the naive form over the same inputs.
+    pub naive: Option<f64>,
 }
 
 /// A model with its cases in both precisions, built once per run.
@@ -41,50 +49,76 @@ struct Built {
 
 type Task<'a> = Box<dyn Fn() -> Record + Send + Sync + 'a>;
 
-/// Runs every check whose model or name contains `filter`, hard cases included.
+/// Runs every check that the filter wants, hard cases included.
 ///
-/// Records come in the order models, parameters, precisions, checks, whatever the number of
-/// threads.
-pub fn run(budget: Budget, filter: &str) -> Vec<Record> {
+/// Records come in the order models, parameters, checks, whatever the number of threads.
+pub fn run(budget: Budget, filter: &Filter, progress: &Progress) -> Vec<Record> {
     let models = cases::models();
     let built: Vec<Built> = models.iter().filter_map(Built::new).collect();
     // Counted over all models, so that a filtered run judges as the full run does.
     let tests: usize = built.iter().map(|b| 2 * b.single.len() * budget.viewers).sum();
     let context = Context { budget, significance: sidak(OVERALL_SIGNIFICANCE, tests) };
+    let (single, double) = (cases::surfaces::<f32>(), cases::surfaces::<f64>());
+
     let mut tasks: Vec<Task> = Vec::new();
     for model in &built {
-        for (single, double) in model.single.iter().zip(&model.double) {
-            model.add_checks(&mut tasks, single, filter, context);
-            model.add_checks(&mut tasks, double, filter, context);
-            if matches(filter, model.name, PRECISION) {
-                tasks.push(Box::new(move || Record {
-                    model: model.name,
-                    parameters: single.parameters.clone(),
-                    precision: "both",
-                    check: PRECISION,
-                    outcome: checks::precision(
-                        &Subject { laws: &model.laws, case: single },
-                        double,
-                        &context,
-                    ),
-                }));
-            }
-        }
+        model.add_checks(&mut tasks, &model.single, filter, context);
+        model.add_checks(&mut tasks, &model.double, filter, context);
     }
-    for hard in HARD_CASES.iter().filter(|h| matches(filter, h.function, h.name)) {
-        tasks.push(Box::new(|| Record {
-            model: hard.function,
-            parameters: String::new(),
-            precision: "f32",
-            check: hard.name,
-            outcome: hard.audit(),
+    add_furnaces(&mut tasks, &single, filter, budget);
+    add_furnaces(&mut tasks, &double, filter, budget);
+    add_hard_cases(&mut tasks, filter);
+
+    let mut records: Vec<Record> =
+        registration(&models).into_iter().filter(|r| filter.wants(r.model, r.check)).collect();
+    // Parallel collection keeps the order of the tasks.
+    records.par_extend(tasks.par_iter().map(|task| {
+        let record = task();
+        progress.check_done(tasks.len());
+        record
+    }));
+    for model in &built {
+        records.extend(model.sweep(filter, budget, progress));
+    }
+    // A stable sort: hard cases and microfacets, which are no models, stay behind.
+    records.sort_by_key(|r| built.iter().position(|b| b.name == r.model).unwrap_or(built.len()));
+    records
+}
+
+fn add_furnaces<'a, T: Scalar>(
+    tasks: &mut Vec<Task<'a>>,
+    surfaces: &'a [Surface<T>],
+    filter: &Filter,
+    budget: Budget,
+) {
+    if filter.wants(furnace::MODEL, furnace::CHECK) {
+        tasks.extend(surfaces.iter().map(|surface| -> Task<'a> {
+            Box::new(move || Record {
+                model: furnace::MODEL,
+                parameters: surface.name.to_owned(),
+                precision: T::NAME,
+                check: furnace::CHECK,
+                outcome: furnace::weak_furnace(surface, budget),
+                naive: None,
+            })
         }));
     }
-    let mut records: Vec<Record> =
-        registration(&models).into_iter().filter(|r| matches(filter, r.model, r.check)).collect();
-    // Parallel collection keeps the order of the tasks.
-    records.par_extend(tasks.par_iter().map(|task| task()));
-    records
+}
+
+fn add_hard_cases(tasks: &mut Vec<Task>, filter: &Filter) {
+    for hard in HARD_CASES.iter().filter(|h| filter.wants(h.function, h.name)) {
+        tasks.push(Box::new(|| {
+            let verdict = hard.audit();
+            Record {
+                model: hard.function,
+                parameters: String::new(),
+                precision: "f32",
+                check: hard.name,
+                outcome: verdict.outcome,
+                naive: verdict.naive,
+            }
+        }));
+    }
 }
 
 /// Every model of the registry has cases, and every case is of a model of the registry.
@@ -103,13 +137,10 @@ pub fn registration(models: &[ModelCases]) -> Vec<Record> {
             precision: "both",
             check: "registration",
             outcome: worst.within(0.0, "violations"),
+            naive: None,
         }
     };
     registered.chain(strangers).map(record).collect()
-}
-
-fn matches(filter: &str, model: &str, check: &str) -> bool {
-    model.contains(filter) || check.contains(filter)
 }
 
 impl Built {
@@ -126,21 +157,50 @@ impl Built {
     fn add_checks<'a, T: Scalar>(
         &'a self,
         tasks: &mut Vec<Task<'a>>,
-        case: &'a Case<T>,
-        filter: &str,
+        cases: &'a [Case<T>],
+        filter: &Filter,
         context: Context,
     ) {
-        for check in checks::all::<T>() {
-            if matches(filter, self.name, check.name) {
-                tasks.push(Box::new(move || Record {
-                    model: self.name,
-                    parameters: case.parameters.clone(),
-                    precision: T::NAME,
-                    check: check.name,
-                    outcome: (check.run)(&Subject { laws: &self.laws, case }, &context),
-                }));
+        for case in cases {
+            for check in checks::all::<T>() {
+                if filter.wants(self.name, check.name) {
+                    tasks.push(Box::new(move || Record {
+                        model: self.name,
+                        parameters: case.parameters.clone(),
+                        precision: T::NAME,
+                        check: check.name,
+                        outcome: (check.run)(&Subject { laws: &self.laws, case }, &context),
+                        naive: None,
+                    }));
+                }
             }
         }
+    }
+
+    /// The checks `precision` and `finite` of every case; the inputs are shared out evenly.
+    fn sweep(&self, filter: &Filter, budget: Budget, progress: &Progress) -> Vec<Record> {
+        let wanted = checks::SWEPT.map(|check| filter.wants(self.name, check));
+        if !wanted.contains(&true) {
+            return Vec::new();
+        }
+        let count = budget.swept.div_ceil(self.single.len() as u64);
+        let (mut records, mut time) = (Vec::new(), Duration::ZERO);
+        for (single, double) in self.single.iter().zip(&self.double) {
+            let (swept, elapsed) = sweep(single, double, count);
+            time += elapsed;
+            for (check, outcome) in checks::SWEPT.into_iter().zip([swept.precision, swept.finite]) {
+                records.push(Record {
+                    model: self.name,
+                    parameters: single.parameters.clone(),
+                    precision: "both",
+                    check,
+                    outcome,
+                    naive: None,
+                });
+            }
+        }
+        progress.swept(self.name, &records, time);
+        records.into_iter().filter(|r| filter.wants(r.model, r.check)).collect()
     }
 }
 
@@ -161,7 +221,7 @@ mod tests {
     fn records_do_not_depend_on_the_number_of_threads() {
         let run_on = |threads| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-            pool.install(|| run(Budget::TEST, "mask"))
+            pool.install(|| run(Budget::TEST, &Filter::new(["mask"]), &Progress::Silent))
         };
         let one = run_on(1);
         assert!(one.len() > 20 && one == run_on(3));

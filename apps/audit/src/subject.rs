@@ -39,6 +39,18 @@ pub enum Width {
     Needle,
 }
 
+/// Whether light is lost in a model.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Loss {
+    /// Some, or as far as is known.
+    Some,
+    /// None: all that arrives leaves again.
+    None,
+}
+
+/// A published formula for `f(wo, wi)`, read literally, in `f64`.
+pub type Textbook = Box<dyn Fn([f64; 3], [f64; 3]) -> f64 + Send + Sync>;
+
 /// Parameters and the model built with them.
 pub struct Case<T: Scalar> {
     /// The parameters, as the report prints them.
@@ -47,6 +59,10 @@ pub struct Case<T: Scalar> {
     pub bsdf: Box<dyn Bsdf<Color = T> + Send + Sync>,
     /// How its narrowest lobe compares with what can be resolved.
     pub width: Width,
+    /// Whether these parameters lose light.
+    pub loss: Loss,
+    /// The formula as published, where the audit keeps it.
+    pub textbook: Option<Textbook>,
     /// Published directional albedos, `(θ in rad, albedo)`, that must be reproduced to the three
     /// digits printed.
     pub published: &'static [(f64, f64)],
@@ -62,6 +78,8 @@ impl<T: Scalar> Case<T> {
             parameters: parameters.into(),
             bsdf: Box::new(bsdf),
             width: Width::Wide,
+            loss: Loss::Some,
+            textbook: None,
             published: &[],
         }
     }
@@ -69,6 +87,19 @@ impl<T: Scalar> Case<T> {
     /// The same case with a lobe of another width.
     pub fn of_width(self, width: Width) -> Self {
         Self { width, ..self }
+    }
+
+    /// The same case, said to lose no light.
+    pub fn lossless(self) -> Self {
+        Self { loss: Loss::None, ..self }
+    }
+
+    /// The same case with its published formula.
+    pub fn textbook(
+        self,
+        formula: impl Fn([f64; 3], [f64; 3]) -> f64 + Send + Sync + 'static,
+    ) -> Self {
+        Self { textbook: Some(Box::new(formula)), ..self }
     }
 
     /// The same case with published albedos.
@@ -93,13 +124,14 @@ impl<T: Scalar> Case<T> {
         Partition::new(points, count / 100)
     }
 
-    /// η of the far side relative to the side of `wo`, as samples along the normal, where
-    /// transmission is likely, report it; 1 where nothing is transmitted.
+    /// η of the far side relative to the side of `wo`, as samples of the continuous part along the
+    /// normal, where transmission is likely, report it; 1 where it transmits nothing.
     pub fn relative_index(&self, wo: Vec3<T>) -> f64 {
         const INDEX_STREAM: u64 = 102;
         let normal = from_angles::<T>(if wo.z() < T::ZERO { -1.0 } else { 1.0 }, 0.0);
         (0..256)
             .filter_map(|i| self.draw(normal, INDEX_STREAM, i))
+            .filter(|s| matches!(s.density, Density::Continuous(_)))
             .find(|s| s.wi.z() * normal.z() < T::ZERO)
             .map_or(1.0, |s| s.eta.to_f64())
     }

@@ -4,7 +4,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use etendue_audit::budget::Budget;
-use etendue_audit::report::{self, Totals};
+use etendue_audit::filter::Filter;
+use etendue_audit::progress::Progress;
+use etendue_audit::report::{self, Report, Totals};
 use etendue_audit::run::{registration, run};
 use etendue_audit::{cases, subject::Case};
 use etendue_brdf::registry::MODELS;
@@ -92,8 +94,9 @@ fn cases_have_no_lobe_that_the_registry_does_not_state() {
 
 #[test]
 fn the_whole_audit_passes_on_a_small_budget() {
-    let records = run(Budget::TEST, "");
+    let records = run(Budget::TEST, &Filter::default(), &Progress::Silent);
+    let report = Report { date: "2000-01-01".into(), budget: Budget::TEST, records };
     let mut text = Vec::new();
-    report::table(&mut text, &records, Budget::TEST).unwrap();
-    assert!(Totals::of(&records).all_passed(), "{}", String::from_utf8_lossy(&text));
+    report::table(&mut text, &report).unwrap();
+    assert!(Totals::of(&report.records).all_passed(), "{}", String::from_utf8_lossy(&text));
 }

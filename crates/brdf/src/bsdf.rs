@@ -55,7 +55,8 @@ impl Lobes {
 /// `1/η²` with `η` the index of the medium of `wi` relative to that of `wo`.
 ///
 /// Evaluation is total: outside a model's domain (a direction below the surface of a one-sided
-/// model, a NaN, a zero vector) values and densities are 0 and `sample` is `None`. Uniforms lie in `[0, 1)`.
+/// model, a NaN, a zero vector, one a thousand units long) values and densities are 0 and `sample` is
+/// `None`. Uniforms lie in `[0, 1)`.
 pub trait Bsdf {
     /// Scalar, RGB or a set of wavelengths.
     type Color: Spectrum;
@@ -107,11 +108,12 @@ pub type BsdfReal<B> = <<B as Bsdf>::Color as Spectrum>::Real;
 /// The vector type of a model.
 pub type BsdfVec<B> = Vec3<BsdfReal<B>>;
 
-/// A finite direction above the surface. False for NaN.
+/// A direction above the surface. False for NaN, and for what is a thousand units long: unit
+/// vectors are meant, and squares of such a one would overflow further on.
 #[inline(always)]
 pub(crate) fn above<V: Vector3>(w: V) -> bool {
     // A comparison with the squared length costs less than testing three components for NaN.
-    w.z() > V::Scalar::ZERO && w.length_squared() < V::Scalar::INFINITY
+    w.z() > V::Scalar::ZERO && w.length_squared() < V::Scalar::lit(1e6)
 }
 
 /// Both directions above the surface: the domain of a one-sided reflection model.

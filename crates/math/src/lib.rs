@@ -23,6 +23,7 @@ extern crate std;
 compile_error!("etendue-math needs a float backend: enable the feature `std` or `libm`");
 
 mod backend;
+mod eighth_turn;
 mod frame;
 mod hash;
 pub mod quadrature;

@@ -4,8 +4,8 @@ use core::fmt::{Debug, Display};
 use core::iter::Sum;
 use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 
-use crate::backend;
 use crate::vector::Vector3;
+use crate::{backend, eighth_turn};
 
 mod sealed {
     pub trait Sealed {}
@@ -96,9 +96,11 @@ pub trait Real:
     fn safe_sqrt(self) -> Self {
         self.max(Self::ZERO).sqrt()
     }
-    /// The smaller of the two; the other one if one is NaN.
+    /// The smaller of the two; the other one if one is NaN; `other` if they are equal.
+    ///
+    /// Of two zeros of different sign `core`'s minimum may be either, and differs between processors.
     fn min(self, other: Self) -> Self;
-    /// The larger of the two; the other one if one is NaN.
+    /// The larger of the two; the other one if one is NaN; `other` if they are equal (see [`min`](Self::min)).
     fn max(self, other: Self) -> Self;
     /// `x` limited to `[low, high]`; `low` for NaN, so that nothing invalid passes.
     fn clamp_to(self, low: Self, high: Self) -> Self {
@@ -118,6 +120,11 @@ pub trait Real:
     fn sin_cos(self) -> (Self, Self) {
         (self.sin(), self.cos())
     }
+    /// Sine and cosine of `self` eighths of a turn, `π/4 · x`, for `|x| ≤ 1`; some finite numbers
+    /// for other finite `x`.
+    ///
+    /// Within 0.54 ulp for `f32`, 2 ulp for `f64`.
+    fn sin_cos_eighth_turn(self) -> (Self, Self);
     /// Tangent of an angle in radians.
     fn tan(self) -> Self;
     /// Arc sine in radians; NaN outside `[−1, 1]`.
@@ -175,7 +182,7 @@ pub trait Real:
 }
 
 macro_rules! real {
-    ($float:ident, $vec3:ty, $digits:expr, $erf:path, $erfc:path) => {
+    ($float:ident, $vec3:ty, $sin_cos_eighth_turn:path, $erf:path, $erfc:path) => {
         impl Real for $float {
             type Vec3 = $vec3;
 
@@ -216,11 +223,11 @@ macro_rules! real {
             }
             #[inline(always)]
             fn min(self, other: Self) -> Self {
-                $float::min(self, other)
+                if self < other || other.is_nan() { self } else { other }
             }
             #[inline(always)]
             fn max(self, other: Self) -> Self {
-                $float::max(self, other)
+                if self > other || other.is_nan() { self } else { other }
             }
             #[inline(always)]
             fn copysign(self, sign: Self) -> Self {
@@ -241,6 +248,10 @@ macro_rules! real {
             #[inline(always)]
             fn cos(self) -> Self {
                 backend::$float::cos(self)
+            }
+            #[inline(always)]
+            fn sin_cos_eighth_turn(self) -> (Self, Self) {
+                $sin_cos_eighth_turn(self)
             }
             #[inline(always)]
             fn tan(self) -> Self {
@@ -318,8 +329,8 @@ macro_rules! real {
     };
 }
 
-real!(f32, glam::Vec3, 24, libm_crate::erff, libm_crate::erfcf);
-real!(f64, glam::DVec3, 53, libm_crate::erf, libm_crate::erfc);
+real!(f32, glam::Vec3, eighth_turn::sin_cos_f32, libm_crate::erff, libm_crate::erfcf);
+real!(f64, glam::DVec3, eighth_turn::sin_cos_f64, libm_crate::erf, libm_crate::erfc);
 
 mod difference_of_products {
     use super::backend;
@@ -382,6 +393,17 @@ mod tests {
     fn clamping_replaces_nan_by_the_lower_bound() {
         assert_eq!(f32::NAN.clamp_to(0.0, 1.0), 0.0);
         assert_eq!(2.0_f64.clamp_to(0.0, 1.0), 1.0);
+    }
+
+    #[test]
+    fn extremes_skip_nan_and_of_two_zeros_take_the_argument() {
+        for (nan, x) in [(f32::NAN, 1.0), (1.0, f32::NAN)] {
+            assert_eq!((Real::min(nan, x), Real::max(nan, x)), (1.0, 1.0));
+        }
+        for (a, b) in [(0.0_f64, -0.0), (-0.0, 0.0)] {
+            assert_eq!(Real::min(a, b).to_bits(), b.to_bits());
+            assert_eq!(Real::max(a, b).to_bits(), b.to_bits());
+        }
     }
 
     #[test]

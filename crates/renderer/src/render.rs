@@ -1,10 +1,12 @@
 //! Rendering a whole picture on all processors.
 
+use core::marker::PhantomData;
 use core::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
 use etendue_math::Spectrum;
 use etendue_sampling::{Decision, Dimension, Independent, Sampler, Sobol};
+use etendue_scene::geometry::{Rays, Task};
 use etendue_scene::material::PreparedMaterials;
 use etendue_scene::scene::SamplerKind;
 use etendue_scene::{Color, Scene};
@@ -107,7 +109,12 @@ impl<'a> Renderer<'a> {
     fn sample_with<S: Sampler>(&self, pixel: [u32; 2], index: u32) -> Color {
         let points = S::at(self.settings.seed, pixel, u64::from(index));
         let filter = self.filter.pixel(pixel);
-        self.path_sample(&self.tracer(), &filter, &points, &mut RayCounts::default())
+        self.path_sample(
+            &self.tracer(&self.scene.geometry),
+            &filter,
+            &points,
+            &mut RayCounts::default(),
+        )
     }
 
     /// Renders the given tiles, in this order.
@@ -131,7 +138,6 @@ impl<'a> Renderer<'a> {
         cancel: &AtomicBool,
     ) -> Rendering {
         let crop = &self.scene.film.crop;
-        let tracer = self.tracer();
         let next = AtomicUsize::new(0);
         let rendering = Mutex::new(Rendering {
             image: Image::black(crop.size),
@@ -141,7 +147,8 @@ impl<'a> Renderer<'a> {
         self.pool.broadcast(|_| {
             while !cancel.load(Ordering::Relaxed) {
                 let Some(&tile) = tiles.get(next.fetch_add(1, Ordering::Relaxed)) else { break };
-                let (pixels, statistics) = self.render_tile::<S>(&tracer, tile);
+                let task = RenderTile::<S> { renderer: self, tile, points: PhantomData };
+                let (pixels, statistics) = self.scene.geometry.run(task);
                 // Merging is the same in any order. A poisoned lock means that `report` panicked
                 // on another thread, whose tile is complete.
                 let mut shared = rendering.lock().unwrap_or_else(PoisonError::into_inner);
@@ -159,27 +166,15 @@ impl<'a> Renderer<'a> {
         rendering.into_inner().unwrap_or_else(PoisonError::into_inner)
     }
 
-    fn tracer(&self) -> PathTracer<'_, 'a> {
+    fn tracer<R: Rays>(&self, rays: R) -> PathTracer<'_, 'a, R> {
         let RenderSettings { path, strategy, .. } = self.settings;
-        PathTracer::new(self.scene, &self.materials, &self.lights, path, strategy)
+        PathTracer::new(rays, self.scene, &self.materials, &self.lights, path, strategy)
     }
 
-    fn render_tile<S: Sampler>(
+    #[inline(always)]
+    fn render_pixel<S: Sampler, R: Rays>(
         &self,
-        tracer: &PathTracer<'_, '_>,
-        tile: Tile,
-    ) -> (Vec<Color>, Statistics) {
-        let mut statistics = Statistics::default();
-        let pixels = tile
-            .pixels()
-            .map(|pixel| self.render_pixel::<S>(tracer, pixel, &mut statistics))
-            .collect();
-        (pixels, statistics)
-    }
-
-    fn render_pixel<S: Sampler>(
-        &self,
-        tracer: &PathTracer<'_, '_>,
+        tracer: &PathTracer<'_, '_, R>,
         pixel: [u32; 2],
         statistics: &mut Statistics,
     ) -> Color {
@@ -197,9 +192,10 @@ impl<'a> Renderer<'a> {
         sum.mean()
     }
 
-    fn path_sample<S: Sampler>(
+    #[inline(always)]
+    fn path_sample<S: Sampler, R: Rays>(
         &self,
-        tracer: &PathTracer<'_, '_>,
+        tracer: &PathTracer<'_, '_, R>,
         filter: &PixelFilter<'_>,
         points: &S,
         rays: &mut RayCounts,
@@ -213,5 +209,27 @@ impl<'a> Renderer<'a> {
         };
         let ray = camera.ray(film.position, lens);
         tracer.radiance(ray, points, rays).scale(film.weight)
+    }
+}
+
+/// The rendering of one tile.
+struct RenderTile<'r, 'a, S> {
+    renderer: &'r Renderer<'a>,
+    tile: Tile,
+    points: PhantomData<S>,
+}
+
+impl<S: Sampler> Task for RenderTile<'_, '_, S> {
+    type Output = (Vec<Color>, Statistics);
+
+    #[inline(always)]
+    fn run<R: Rays>(self, rays: R) -> (Vec<Color>, Statistics) {
+        let tracer = self.renderer.tracer(rays);
+        let mut statistics = Statistics::default();
+        let mut pixels = Vec::new();
+        for pixel in self.tile.pixels() {
+            pixels.push(self.renderer.render_pixel::<S, R>(&tracer, pixel, &mut statistics));
+        }
+        (pixels, statistics)
     }
 }

@@ -1,11 +1,15 @@
 //! Independent uniform numbers.
 
-use etendue_math::{Real, mix_u64};
+use etendue_math::{Real, hash_u64, mix_u64};
 
 use crate::sampler::address;
-use crate::{Dimension, Pcg32, Sampler, uniform};
+use crate::{Dimension, Pcg32, Sampler};
 
-/// Independent uniform numbers: a [`Pcg32`] keyed by a hash of the address.
+/// Independent uniform numbers: hashes of the address.
+///
+/// ```text
+/// h = hash(address)        x = the upper bits of h,  y = the lower half of h in f32, hash(h) in f64
+/// ```
 ///
 /// The reference that [`Sobol`](crate::Sobol) is judged against, and the choice where an error
 /// estimate needs independent samples.
@@ -29,18 +33,26 @@ impl Sampler for Independent {
 
     #[inline]
     fn sample_1d<T: Real>(&self, dimension: Dimension) -> T {
-        uniform(&mut self.rng(dimension))
+        T::from_random_bits(self.hash(dimension))
     }
 
     #[inline]
     fn sample_2d<T: Real>(&self, dimension: Dimension) -> [T; 2] {
-        let mut rng = self.rng(dimension);
-        [uniform(&mut rng), uniform(&mut rng)]
+        let first = self.hash(dimension);
+        let second = if T::SIGNIFICAND_BITS <= 32 { first << 32 } else { hash_u64(first) };
+        [first, second].map(T::from_random_bits)
     }
 
     #[inline]
     fn rng(&self, dimension: Dimension) -> Pcg32 {
-        Pcg32::from_hash(mix_u64(self.address, dimension.id() as u64))
+        Pcg32::from_hash(self.hash(dimension))
+    }
+}
+
+impl Independent {
+    #[inline]
+    fn hash(self, dimension: Dimension) -> u64 {
+        mix_u64(self.address, dimension.id() as u64)
     }
 }
 
@@ -83,11 +95,26 @@ mod tests {
     }
 
     #[test]
-    fn numbers_are_those_of_the_generator_at_the_address() {
-        let points = Independent::at(1, [2, 3], u64::MAX);
-        let mut rng = points.rng(FILM);
-        let [x, y]: [f32; 2] = points.sample_2d(FILM);
-        assert_eq!([x, y], [uniform(&mut rng), uniform(&mut rng)]);
-        assert_eq!(x, points.sample_1d::<f32>(FILM));
+    fn the_two_coordinates_are_uncorrelated_in_both_precisions() {
+        const N: u64 = 10_000;
+        let at = |i| Independent::at(0, [8, 9], i);
+        let narrow = |i, axis: usize| f64::from(at(i).sample_2d::<f32>(FILM)[axis]);
+        let wide = |i, axis: usize| at(i).sample_2d::<f64>(FILM)[axis];
+        // 5 standard deviations, as above.
+        assert!(correlation(N, |i| narrow(i, 0), |i| narrow(i, 1)).abs() < 0.05);
+        assert!(correlation(N, |i| wide(i, 0), |i| wide(i, 1)).abs() < 0.05);
+        // The lower bits of one coordinate and the upper ones of the other.
+        let lower = |i| (wide(i, 0) * 4_294_967_296.0).fract();
+        assert!(correlation(N, lower, |i| wide(i, 1)).abs() < 0.05);
+    }
+
+    #[test]
+    fn double_precision_extends_the_first_coordinate() {
+        for i in 0..1000 {
+            let points = Independent::at(2, [1, 1], i);
+            let (x, wide): (f32, f64) = (points.sample_1d(FILM), points.sample_1d(FILM));
+            // The same leading 24 bits, truncated.
+            assert!((0.0..f64::from(f32::EPSILON)).contains(&(wide - f64::from(x))));
+        }
     }
 }

@@ -9,7 +9,7 @@
 //!
 //! | [`Sampler`] | points | error of smooth integrals |
 //! | --- | --- | --- |
-//! | [`Independent`] | a [`Pcg32`] keyed by a hash of the address | N^-½ |
+//! | [`Independent`] | hashes of the address | N^-½ |
 //! | [`Sobol`] | Owen-scrambled (0,2)-sequence, shuffled per dimension and pixel | down to N^-³ᐟ² |
 //!
 //! [`Pcg32`] also implements [`rand_core`]'s traits, for everything that is not a path.

@@ -46,11 +46,11 @@ pub(super) fn mask<T: Scalar>() -> Vec<Case<T>> {
     };
     let glass = Mask::new(SmoothDielectric::<T>::new(ior::<T>(1.5)), opacity::<T>(0.3));
     vec![
-        diffuse(0.0),
+        diffuse(0.0).lossless(),
         diffuse(1e-6),
         diffuse(0.6),
         diffuse(1.0),
-        Case::new("opacity 0.3 over smooth-dielectric", glass),
+        Case::new("opacity 0.3 over smooth-dielectric", glass).lossless(),
     ]
 }
 

@@ -6,18 +6,24 @@ use etendue_brdf::{
 };
 
 use super::parameters::{reflectance, valid};
+use super::textbook;
 use crate::scalar::{Scalar, shared};
 use crate::subject::Case;
 
 pub(super) fn lambert<T: Scalar>() -> Vec<Case<T>> {
-    let case = |rho| Case::new(format!("albedo {rho}"), Lambert::new(reflectance::<T>(rho)));
-    vec![case(0.0), case(0.5), case(1.0).published(&[(0.01, 1.0), (1.56, 1.0)])]
+    let case = |rho: f64| {
+        Case::new(format!("albedo {rho}"), Lambert::new(reflectance::<T>(rho)))
+            .textbook(move |wo, wi| textbook::lambert(rho, wo, wi))
+    };
+    vec![case(0.0), case(0.5), case(1.0).lossless().published(&[(0.01, 1.0), (1.56, 1.0)])]
 }
 
 pub(super) fn oren_nayar<T: Scalar>() -> Vec<Case<T>> {
-    let case = |rho, sigma: f64| {
+    let case = |rho: f64, sigma: f64| {
         let model = OrenNayar::new(reflectance::<T>(rho), valid(Sigma::new(shared::<T>(sigma))));
+        let [r, s] = [rho, sigma].map(shared::<f64>);
         Case::new(format!("albedo {rho}, σ {sigma}"), model)
+            .textbook(move |wo, wi| textbook::oren_nayar(r, s, wo, wi))
     };
     vec![
         case(0.0, 0.3),
@@ -31,16 +37,30 @@ pub(super) fn oren_nayar<T: Scalar>() -> Vec<Case<T>> {
             (1.5, 1.032),
             (1.56, 1.046),
         ]),
-        case(1.0, 0.5).published(&[(0.01, 0.896), (0.8, 0.909), (1.3, 0.958), (1.56, 1.020)]),
-        case(1.0, 1.0).published(&[(0.01, 0.775), (0.8, 0.790), (1.3, 0.852), (1.56, 0.929)]),
+        case(1.0, 0.5).published(&[
+            (0.01, 0.896),
+            (0.8, 0.909),
+            (1.3, 0.958),
+            (1.5, 0.999),
+            (1.56, 1.020),
+        ]),
+        case(1.0, 1.0).published(&[
+            (0.01, 0.775),
+            (0.8, 0.790),
+            (1.3, 0.852),
+            (1.5, 0.902),
+            (1.56, 0.929),
+        ]),
     ]
 }
 
 pub(super) fn oren_nayar_qualitative<T: Scalar>() -> Vec<Case<T>> {
-    let case = |rho, sigma: f64| {
+    let case = |rho: f64, sigma: f64| {
         let sigma_checked = valid(Sigma::new(shared::<T>(sigma)));
         let model = OrenNayarQualitative::new(reflectance::<T>(rho), sigma_checked);
+        let [r, s] = [rho, sigma].map(shared::<f64>);
         Case::new(format!("albedo {rho}, σ {sigma}"), model)
+            .textbook(move |wo, wi| textbook::oren_nayar_qualitative(r, s, wo, wi))
     };
     vec![
         case(0.0, 0.3),
@@ -95,9 +115,9 @@ pub(super) fn eon<T: Scalar>() -> Vec<Case<T>> {
         case(0.8, 1e-6, EonSampling::Cltc),
         case(0.4, 0.3, EonSampling::Cosine),
         case(0.4, 0.3, EonSampling::Cltc),
-        case(1.0, 0.5, EonSampling::Cosine).published(white),
-        case(1.0, 1.0, EonSampling::Cosine).published(white),
-        case(1.0, 1.0, EonSampling::Cltc).published(white),
+        case(1.0, 0.5, EonSampling::Cosine).lossless().published(white),
+        case(1.0, 1.0, EonSampling::Cosine).lossless().published(white),
+        case(1.0, 1.0, EonSampling::Cltc).lossless().published(white),
     ]
 }
 
@@ -152,9 +172,9 @@ pub(super) fn diffuse_transmitter<T: Scalar>() -> Vec<Case<T>> {
     };
     vec![
         case(0.0, 0.0),
-        case(1.0, 0.0),
-        case(0.0, 1.0),
-        case(0.25, 0.75).published(&[(0.01, 1.0), (1.56, 1.0)]),
+        case(1.0, 0.0).lossless(),
+        case(0.0, 1.0).lossless(),
+        case(0.25, 0.75).lossless().published(&[(0.01, 1.0), (1.56, 1.0)]),
         case(0.4, 0.1),
         case(1e-6, 0.5),
     ]

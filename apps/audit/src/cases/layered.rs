@@ -7,7 +7,8 @@ use etendue_brdf::{
 };
 
 use super::parameters::{BECKMANN, alpha, facets, ior, on_surfaces, reflectance, valid};
-use crate::scalar::Scalar;
+use super::textbook;
+use crate::scalar::{Scalar, shared};
 use crate::subject::{Case, Width};
 
 fn interface<T: Scalar>(eta: f64) -> PlasticInterface<T> {
@@ -17,15 +18,21 @@ fn interface<T: Scalar>(eta: f64) -> PlasticInterface<T> {
 pub(super) fn plastic<T: Scalar>() -> Vec<Case<T>> {
     let case = |rho: f64, eta: f64, scattering| {
         let model = Plastic::new(interface::<T>(eta), reflectance::<T>(rho), scattering);
+        let [r, n] = [rho, eta].map(shared::<f64>);
+        let base = match scattering {
+            InternalScattering::Linear => textbook::linear_base(r, n),
+            InternalScattering::NonLinear => textbook::non_linear_base(r, n),
+        };
         Case::new(format!("albedo {rho}, η {eta}, {scattering:?}"), model)
+            .textbook(move |wo, wi| textbook::plastic(base, n, wo, wi))
     };
     vec![
         case(0.0, 1.5, InternalScattering::Linear),
         case(0.5, 1.5, InternalScattering::Linear),
         case(0.5, 1.5, InternalScattering::NonLinear),
-        case(1.0, 1.5, InternalScattering::Linear),
-        case(1.0, 1.000_001, InternalScattering::NonLinear),
-        case(1.0, 4.0, InternalScattering::NonLinear),
+        case(1.0, 1.5, InternalScattering::Linear).lossless(),
+        case(1.0, 1.000_001, InternalScattering::NonLinear).lossless(),
+        case(1.0, 4.0, InternalScattering::NonLinear).lossless(),
     ]
 }
 
@@ -59,8 +66,8 @@ pub(super) fn layered_linear<T: Scalar>() -> Vec<Case<T>> {
     vec![
         case(0.5, 0.25),
         case(0.0, 0.0),
-        case(0.0, 1.0),
-        case(1.0, 0.0),
+        case(0.0, 1.0).lossless(),
+        case(1.0, 0.0).lossless(),
         case(0.999_999, 1e-6),
         case(1e-6, 0.5).published(&[(0.3, 0.5)]),
     ]
@@ -100,7 +107,7 @@ pub(super) fn coupled<T: Scalar>() -> Vec<Case<T>> {
             let case = Case::new(format!("{name}, rm {rm}"), model);
             // White is white at every angle.
             let white: &[(f64, f64)] = &[(0.0, 1.0), (0.8, 1.0), (1.3, 1.0), (1.56, 1.0)];
-            cases.push(if rm == 1.0 { case.published(white) } else { case });
+            cases.push(if rm == 1.0 { case.lossless().published(white) } else { case });
         }
     }
     cases

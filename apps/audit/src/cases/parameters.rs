@@ -5,6 +5,7 @@ use etendue_brdf::{
     ParameterError, Reflectance,
 };
 
+use super::textbook::Facets;
 use crate::scalar::{Scalar, shared};
 use crate::subject::{Case, Width};
 
@@ -81,16 +82,60 @@ pub(super) fn facets<T: Scalar>(
     Microfacets::new(distribution, alpha::<T>(x), alpha::<T>(y), masking)
 }
 
+/// A rough surface by itself.
+pub struct Surface<T> {
+    /// Its parameters, as the report prints them.
+    pub name: &'static str,
+    /// The surface.
+    pub facets: Microfacets<T>,
+    /// Its distribution.
+    pub distribution: Distribution,
+    /// How masking and shadowing are combined.
+    pub masking: Masking,
+    /// Its widths αx and αy.
+    pub widths: [f64; 2],
+    /// How its lobe compares with what can be resolved.
+    pub width: Width,
+}
+
+/// The rough surfaces that models are audited with.
+pub fn surfaces<T: Scalar>() -> Vec<Surface<T>> {
+    SURFACES
+        .iter()
+        .map(|&(name, distribution, widths, masking)| Surface {
+            name,
+            facets: facets::<T>(distribution, widths, masking),
+            distribution,
+            masking,
+            widths: widths.map(|a| shared::<T>(a).to_f64()),
+            width: width::<T>(widths[0]),
+        })
+        .collect()
+}
+
 /// One case per surface, with what `model` makes of it.
 pub(super) fn on_surfaces<T: Scalar, B: Bsdf<Color = T> + Send + Sync + 'static>(
     parameters: &str,
     model: impl Fn(Microfacets<T>) -> B,
 ) -> Vec<Case<T>> {
-    SURFACES
-        .iter()
-        .map(|&(name, distribution, widths, masking)| {
-            let bsdf = model(facets::<T>(distribution, widths, masking));
-            Case::new(format!("{name}{parameters}"), bsdf).of_width(width::<T>(widths[0]))
-        })
+    surfaces::<T>()
+        .into_iter()
+        .map(|s| Case::new(format!("{}{parameters}", s.name), model(s.facets)).of_width(s.width))
         .collect()
+}
+
+/// The cases of [`on_surfaces`] with the formula that they stand for. Literal forms lose their digits
+/// together with the width of the lobe: the narrowest surfaces go without.
+pub(super) fn as_published<T: Scalar>(
+    cases: Vec<Case<T>>,
+    formula: impl Fn(Facets, [f64; 3], [f64; 3]) -> f64 + Copy + Send + Sync + 'static,
+) -> impl Iterator<Item = Case<T>> {
+    cases.into_iter().zip(surfaces::<T>()).map(move |(case, surface)| {
+        let Surface { distribution, widths, masking, .. } = surface;
+        if widths[0] < 1e-3 {
+            return case;
+        }
+        let facets = Facets { distribution, widths, masking };
+        case.textbook(move |wo, wi| formula(facets, wo, wi))
+    })
 }

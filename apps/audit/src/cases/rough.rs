@@ -7,16 +7,23 @@ use etendue_brdf::{
 };
 
 use super::parameters::{
-    BECKMANN, METALS, SURFACES, complex, facets, ior, on_surfaces, valid, width,
+    BECKMANN, METALS, SURFACES, as_published, complex, facets, ior, on_surfaces, valid, width,
 };
+use super::textbook;
 use crate::scalar::{Scalar, shared};
 use crate::subject::{Case, Width};
 
 pub(super) fn rough_conductor<T: Scalar>() -> Vec<Case<T>> {
     let mirror = |facets| RoughConductor::new(ComplexIor::perfect(), facets);
     let gold = |facets| RoughConductor::new(complex::<T>(METALS[1].1), facets);
-    let mut cases = on_surfaces(", perfect mirror", mirror);
-    cases.extend(on_surfaces(", gold", gold));
+    let gold_index = METALS[1].1.map(shared::<f64>);
+    let white = as_published(on_surfaces(", perfect mirror", mirror), |facets, wo, wi| {
+        facets.reflection(|_| 1.0, wo, wi)
+    });
+    let golden = as_published(on_surfaces(", gold", gold), move |facets, wo, wi| {
+        facets.reflection(|cos| textbook::conductor(cos, gold_index), wo, wi)
+    });
+    let mut cases: Vec<_> = white.chain(golden).collect();
     cases.extend(sampled_by::<T, AllNormals>("all normals"));
     cases.extend(sampled_by::<T, ProjectedDisk>("projected disk"));
     cases.extend(sampled_by::<T, BoundedCaps>("bounded caps"));
@@ -78,7 +85,7 @@ pub(super) fn kulla_conty<T: Scalar>() -> Vec<Case<T>> {
     // The white furnace: nothing is lost at the widest lobe.
     let widest = facets::<T>(Distribution::Ggx, [1.0; 2], Masking::HeightCorrelated);
     let mirror = valid(KullaContyConductor::<T>::new(ComplexIor::perfect(), widest));
-    cases.push(Case::new("ggx α 1, white furnace", mirror).published(WHITE_FURNACE));
+    cases.push(Case::new("ggx α 1, white furnace", mirror).lossless().published(WHITE_FURNACE));
     cases
 }
 
@@ -86,7 +93,7 @@ pub(super) fn turquin<T: Scalar>() -> Vec<Case<T>> {
     let mut cases = compensated(TurquinConductor::<T>::new);
     let widest = facets::<T>(Distribution::Ggx, [1.0; 2], Masking::HeightCorrelated);
     let mirror = valid(TurquinConductor::<T>::new(ComplexIor::perfect(), widest));
-    cases.push(Case::new("ggx α 1, white furnace", mirror).published(WHITE_FURNACE));
+    cases.push(Case::new("ggx α 1, white furnace", mirror).lossless().published(WHITE_FURNACE));
     cases
 }
 
@@ -95,10 +102,21 @@ const WHITE_FURNACE: &[(f64, f64)] = &[(0.0, 1.0), (0.8, 1.0), (1.3, 1.0)];
 
 pub(super) fn rough_dielectric<T: Scalar>() -> Vec<Case<T>> {
     let model = |eta: f64| move |facets| valid(RoughDielectric::<T>::new(ior::<T>(eta), facets));
-    let mut cases = on_surfaces(", η 1.5", model(1.5));
+    let glass = on_surfaces(", η 1.5", model(1.5));
+    let mut cases: Vec<_> =
+        as_published(glass, |facets, wo, wi| facets.dielectric(1.5, wo, wi)).collect();
     for eta in [0.4, 1.001, 2.4, 4.0] {
         let surface = facets::<T>(Distribution::Ggx, [0.4; 2], Masking::HeightCorrelated);
-        cases.push(Case::new(format!("ggx α 0.4, η {eta}"), model(eta)(surface)));
+        let facets = textbook::Facets {
+            distribution: Distribution::Ggx,
+            widths: [shared::<f64>(0.4); 2],
+            masking: Masking::HeightCorrelated,
+        };
+        let index = shared::<f64>(eta);
+        cases.push(
+            Case::new(format!("ggx α 0.4, η {eta}"), model(eta)(surface))
+                .textbook(move |wo, wi| facets.dielectric(index, wo, wi)),
+        );
     }
     // All but the whole lobe goes straight through, into a cone of 1e-6 · α.
     for eta in [0.999_999, 1.000_001] {
@@ -117,5 +135,5 @@ pub(super) fn dielectric<T: Scalar>() -> Vec<Case<T>> {
             Dielectric::<T>::new(ior::<T>(eta), Distribution::Ggx, widths, Masking::default());
         Case::new(format!("ggx α {a}, η {eta}"), valid(model))
     };
-    vec![case(1.0, 0.3), case(1.5, 0.0), case(1.5, 0.3)]
+    vec![case(1.0, 0.3).lossless(), case(1.5, 0.0).lossless(), case(1.5, 0.3)]
 }

@@ -1,7 +1,8 @@
 //! Surfaces without roughness.
 
 use etendue_brdf::{
-    AbsorbingSlab, Null, OpticalDepth, SmoothConductor, SmoothDielectric, ThinDielectric,
+    AbsorbingSlab, ComplexIor, Null, OpticalDepth, SmoothConductor, SmoothDielectric,
+    ThinDielectric,
 };
 
 use super::parameters::{METALS, complex, ior, valid};
@@ -15,20 +16,27 @@ pub(super) fn smooth_conductor<T: Scalar>() -> Vec<Case<T>> {
     METALS
         .iter()
         .map(|&(name, index)| Case::new(name, SmoothConductor::new(complex::<T>(index))))
+        .chain(
+            [Case::new("perfect mirror", SmoothConductor::new(ComplexIor::perfect())).lossless()],
+        )
         .collect()
 }
 
 pub(super) fn smooth_dielectric<T: Scalar>() -> Vec<Case<T>> {
     INDICES
         .iter()
-        .map(|&eta| Case::new(format!("η {eta}"), SmoothDielectric::<T>::new(ior::<T>(eta))))
+        .map(|&eta| {
+            Case::new(format!("η {eta}"), SmoothDielectric::<T>::new(ior::<T>(eta))).lossless()
+        })
         .collect()
 }
 
 pub(super) fn thin_dielectric<T: Scalar>() -> Vec<Case<T>> {
     INDICES
         .iter()
-        .map(|&eta| Case::new(format!("η {eta}"), ThinDielectric::<T>::new(ior::<T>(eta))))
+        .map(|&eta| {
+            Case::new(format!("η {eta}"), ThinDielectric::<T>::new(ior::<T>(eta))).lossless()
+        })
         .collect()
 }
 
@@ -44,5 +52,5 @@ pub(super) fn absorbing_slab<T: Scalar>() -> Vec<Case<T>> {
 }
 
 pub(super) fn null<T: Scalar>() -> Vec<Case<T>> {
-    vec![Case::new("", Null::<T>::new())]
+    vec![Case::new("", Null::<T>::new()).lossless()]
 }

@@ -3,7 +3,8 @@
 use etendue_brdf::registry::Albedo;
 
 use super::Context;
-use super::energy::{TOLERANCE, sides};
+use super::energy::{TOLERANCE, radiance};
+use crate::cubature::Integral;
 use crate::generators::viewers;
 use crate::measure::{Outcome, Worst};
 use crate::scalar::Scalar;
@@ -29,9 +30,8 @@ pub(super) fn check<T: Scalar>(subject: &Subject<T>, context: &Context) -> Outco
             }
             continue;
         };
-        let [reflected, transmitted] = sides(subject.case, wo, context);
-        let error = reflected.error + transmitted.error;
-        let difference = (closed.to_f64() - reflected.value - transmitted.value).abs() - error;
+        let Integral { value, error } = radiance(subject.case, wo, context);
+        let difference = (closed.to_f64() - value).abs() - error;
         let figure = if error <= 1e-3 { difference.max(0.0) } else { f64::INFINITY };
         worst.observe(figure, || format!("{}: {closed}", subject.at_view(wo)));
     }

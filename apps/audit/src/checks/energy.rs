@@ -4,6 +4,7 @@ use etendue_brdf::registry::Energy;
 use etendue_math::{Vec3, Vector3};
 
 use super::Context;
+use super::delta::lobes_of;
 use crate::cubature::Integral;
 use crate::generators::viewers;
 use crate::measure::{Outcome, Worst};
@@ -31,21 +32,45 @@ pub(super) fn check<T: Scalar>(subject: &Subject<T>, context: &Context) -> Outco
     let limit = match subject.laws.energy {
         Energy::Conserves => 1.0,
         Energy::Gains { maximum, .. } => maximum,
+        Energy::OfData => return Outcome::NotApplicable("energy is that of the data"),
     };
     let mut worst = Worst::default();
     for wo in viewers::<T>(context.budget.viewers) {
-        let [reflected, transmitted] = sides(subject.case, wo, context);
-        let eta = subject.case.relative_index(wo);
-        let value = reflected.value + transmitted.value * eta * eta;
-        let error = reflected.error + transmitted.error * eta * eta;
+        let Integral { value, error } = flux(subject.case, wo, context);
         let excess = if error <= 1e-3 { value - limit - error } else { f64::INFINITY };
         worst.observe(excess.max(0.0), || format!("{}: R = {value}", subject.at_view(wo)));
     }
     worst.within(TOLERANCE, "of 1")
 }
 
-/// Directional albedo on the side of `wo` and on the other, as radiance, delta lobes included.
-pub(super) fn sides<T: Scalar>(case: &Case<T>, wo: Vec3<T>, context: &Context) -> [Integral; 2] {
+/// Directional albedo as radiance, on both sides, delta lobes included.
+pub(super) fn radiance<T: Scalar>(case: &Case<T>, wo: Vec3<T>, context: &Context) -> Integral {
+    let [mut reflected, transmitted] = sides(case, wo, context);
+    reflected += transmitted;
+    for lobe in lobes_of(case, wo) {
+        reflected.value += lobe.weight.to_f64() * lobe.probability;
+    }
+    reflected
+}
+
+/// The same as flux: what crosses the surface times the squared index of the far side.
+pub(super) fn flux<T: Scalar>(case: &Case<T>, wo: Vec3<T>, context: &Context) -> Integral {
+    let [mut sum, transmitted] = sides(case, wo, context);
+    let eta = case.relative_index(wo);
+    sum.value += transmitted.value * eta * eta;
+    sum.error += transmitted.error * eta * eta;
+    for lobe in lobes_of(case, wo) {
+        let eta = lobe.eta.to_f64();
+        sum.value += lobe.weight.to_f64() * lobe.probability * eta * eta;
+    }
+    sum
+}
+
+/// Integrals of the continuous part on the side of `wo` and on the other.
+fn sides<T: Scalar>(case: &Case<T>, wo: Vec3<T>, context: &Context) -> [Integral; 2] {
+    if !case.bsdf.lobes().continuous {
+        return [Integral::default(); 2];
+    }
     let partition = case.partition(wo, context.budget.pilot);
     let side = |sign: f64| {
         partition.integrate(TOLERANCE, |w| {
@@ -56,16 +81,7 @@ pub(super) fn sides<T: Scalar>(case: &Case<T>, wo: Vec3<T>, context: &Context) -
             }
         })
     };
-    let mut sides = if case.bsdf.lobes().continuous {
-        [side(1.0), side(-1.0)]
-    } else {
-        [Integral::default(); 2]
-    };
-    for lobe in super::delta::lobes_of(case, wo) {
-        let across = usize::from(lobe.wi.z() * wo.z() < T::ZERO);
-        sides[across].value += lobe.weight.to_f64() * lobe.probability;
-    }
-    sides
+    [side(1.0), side(-1.0)]
 }
 
 #[cfg(test)]

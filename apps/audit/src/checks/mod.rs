@@ -7,12 +7,11 @@ mod density;
 mod energy;
 mod hostile;
 mod normalisation;
-mod precision;
 mod published_albedo;
 mod reciprocity;
+mod strong_furnace;
+mod textbook;
 mod weight;
-
-pub use precision::precision;
 
 use crate::budget::Budget;
 use crate::measure::Outcome;
@@ -37,10 +36,12 @@ pub struct Check<T: Scalar> {
 }
 
 /// Every law that is asked of one precision at a time, in the order of the report.
-pub fn all<T: Scalar>() -> [Check<T>; 10] {
+pub fn all<T: Scalar>() -> [Check<T>; 12] {
     [
+        Check { name: "textbook", run: textbook::check },
         Check { name: "reciprocity", run: reciprocity::check },
         Check { name: "energy", run: energy::check },
+        Check { name: "strong-furnace", run: strong_furnace::check },
         Check { name: "albedo", run: albedo::check },
         Check { name: "published-albedo", run: published_albedo::check },
         Check { name: "normalisation", run: normalisation::check },
@@ -52,5 +53,5 @@ pub fn all<T: Scalar>() -> [Check<T>; 10] {
     ]
 }
 
-/// Name of the check that compares the two precisions.
-pub const PRECISION: &str = "precision";
+/// Names of the checks of [`sweep`](crate::sweep), which compare the two precisions.
+pub const SWEPT: [&str; 2] = ["precision", "finite"];

@@ -1,7 +1,7 @@
 //! Directional albedos known from the literature, gains included.
 
 use super::Context;
-use super::energy::sides;
+use super::energy::radiance;
 use crate::generators::from_angles;
 use crate::measure::{Outcome, Worst};
 use crate::scalar::Scalar;
@@ -18,7 +18,7 @@ pub(super) fn check<T: Scalar>(subject: &Subject<T>, context: &Context) -> Outco
     let mut worst = Worst::default();
     for &(theta, want) in subject.case.published {
         let wo = from_angles::<T>(etendue_math::Real::cos(theta), 0.3);
-        let got: f64 = sides(subject.case, wo, context).iter().map(|s| s.value).sum();
+        let got = radiance(subject.case, wo, context).value;
         worst.observe((got - want).abs(), || {
             format!("{}: {got}, published {want}", subject.at_view(wo))
         });

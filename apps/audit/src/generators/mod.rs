@@ -2,8 +2,10 @@
 
 mod directions;
 mod hostile;
+mod sweep;
 mod uniforms;
 
 pub use directions::{from_angles, pair, unit_pair, viewers};
 pub use hostile::{HOSTILE_UNIFORMS, poisoned, unit_grid, unnormalised};
+pub use sweep::{SweepPair, SweepPairs};
 pub use uniforms::uniforms;

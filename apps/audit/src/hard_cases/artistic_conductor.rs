@@ -10,6 +10,8 @@ use crate::measure::{Outcome, Worst};
 pub(super) const CASE: HardCase = HardCase {
     name: "reflectance to 1, tint to 0",
     function: "fresnel::conductor_from_artistic",
+    problem: "√((r (η + 1)² − (η − 1)²)/(1 − r)) divides by 0 for r = 1 and takes the root of a negative for g = 0",
+    remedy: "factors that do not cancel, and the limits by name",
     sound: || sweep(conductor_from_artistic),
     naive: || sweep(published),
 };

@@ -10,6 +10,8 @@ use crate::measure::{Outcome, Worst};
 pub(super) const CASE: HardCase = HardCase {
     name: "small k, index near 1",
     function: "fresnel::conductor",
+    problem: "√(t² + 4η²k²) + t cancels for t < 0, and 2 a cos θ all but equals what it is taken from",
+    remedy: "the larger part of the complex root, the smaller from their product; quotients without differences",
     sound: || sweep(conductor),
     naive: || sweep(conductor_textbook),
 };

@@ -9,6 +9,8 @@ use crate::measure::{Outcome, Worst};
 pub(super) const CASE: HardCase = HardCase {
     name: "small cones",
     function: "Cone::from_sine",
+    problem: "1 − √(1 − s²): 7 % off at s = 1e-3, all of it at 1e-4",
+    remedy: "s²/(1 + √(1 − s²))",
     sound: || sweep(|s| Cone::from_sine(s).one_minus_cos()),
     naive: || sweep(|s| 1.0 - (1.0 - s * s).sqrt()),
 };

@@ -10,6 +10,8 @@ use crate::measure::{Outcome, Worst};
 pub(super) const CASE: HardCase = HardCase {
     name: "near the horizon",
     function: "cosine_hemisphere",
+    problem: "√(1 − x² − y²) of rounded coordinates is rounding alone at the horizon",
+    remedy: "1 − r² from the uniforms, where it is exact, before the root",
     sound: || sweep(cosine_hemisphere::from_square::<f32>),
     naive: || sweep(lifted_from_disk),
 };

@@ -12,6 +12,8 @@ use crate::measure::{Outcome, Worst};
 pub(super) const CASE: HardCase = HardCase {
     name: "mirror and matte sum to 1",
     function: "Coupled",
+    problem: "exact Fresnel in the mirror over a matte term for Schlick's gains up to 2.3 % of energy",
+    remedy: "one F in both shares, k = 1/(π (1 − F_avg))",
     sound: || sweep(|eta, c| [exact(eta, c), schlick(eta, c)]),
     naive: || sweep(|eta, c| [mixed(eta, c); 2]),
 };

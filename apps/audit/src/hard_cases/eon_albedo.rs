@@ -10,6 +10,8 @@ use crate::measure::{Outcome, Worst};
 pub(super) const CASE: HardCase = HardCase {
     name: "EON albedo, μ → 0",
     function: "fon::albedo_deficit",
+    problem: "(S/μ)(1 − S³) is 0/0 at μ = 0, and 1 − E cancels there",
+    remedy: "S μ (1 + S + S²)/(1 + S), the deficit by itself",
     sound: || sweep(|mu| Roughness::new(1.0).map_or(f32::NAN, |r| fon::albedo_deficit(mu, r))),
     naive: || sweep(published),
 };

@@ -10,6 +10,8 @@ use crate::measure::{Outcome, Worst};
 pub(super) const CASE: HardCase = HardCase {
     name: "opposite directions",
     function: "half_vector",
+    problem: "0/0 for opposite directions",
+    remedy: "the squared length is tested before it divides; no half vector where it vanishes",
     sound: || sweep(|wo, wi| direction::half_vector(wo, wi).map(|(h, _)| h)),
     naive: || sweep(|wo, wi| Some((wo + wi) / (wo + wi).length())),
 };

@@ -12,6 +12,8 @@ use crate::measure::{Outcome, Worst};
 pub(super) const CASE: HardCase = HardCase {
     name: "matched indices, rough",
     function: "Dielectric",
+    problem: "wo + η wi is the zero vector for the straight direction: NaN",
+    remedy: "the pass-through, chosen at construction",
     sound: || sweep(pass_through),
     naive: || sweep(by_half_vector),
 };

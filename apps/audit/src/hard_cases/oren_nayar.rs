@@ -14,6 +14,8 @@ const SIGMA: f32 = 0.75;
 pub(super) const CASE: HardCase = HardCase {
     name: "grazing and normal pairs",
     function: "OrenNayar",
+    problem: "angles by acos lose their digits at grazing, the azimuth of the normal is 0/0",
+    remedy: "tan β = sin β/cos β, tan((α + β)/2) = (sin α + sin β)/(cos α + cos β), angles from the smaller of sine and cosine",
     sound: || sweep(stable),
     naive: || sweep(|wo, wi| textbook(wo, wi, SIGMA)),
 };

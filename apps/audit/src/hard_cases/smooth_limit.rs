@@ -18,6 +18,8 @@ const GLASS: f32 = 1.5;
 pub(super) const CONDUCTOR: HardCase = HardCase {
     name: "roughness 0 is the mirror",
     function: "Conductor",
+    problem: "roughness 0 divides by α²: NaN, or black where that is guarded",
+    remedy: "the mirror, chosen at construction",
     sound: || sweep(metal, mirror),
     naive: || sweep(|wo, _| rough_formula(wo), mirror),
 };
@@ -26,6 +28,8 @@ pub(super) const CONDUCTOR: HardCase = HardCase {
 pub(super) const DIELECTRIC: HardCase = HardCase {
     name: "roughness 0 is smooth glass",
     function: "Dielectric",
+    problem: "roughness 0 divides by α²: NaN, or black where that is guarded",
+    remedy: "smooth glass, chosen at construction",
     sound: || sweep(glass, smooth_glass),
     naive: || sweep(|wo, _| rough_formula(wo), smooth_glass),
 };

@@ -14,6 +14,8 @@ use crate::measure::{Outcome, Worst};
 pub(super) const TRIANGLE: HardCase = HardCase {
     name: "tiny triangles",
     function: "SphericalTriangle",
+    problem: "the spherical excess is a difference of angles of the size of π: nothing is left below 1e-6 sr",
+    remedy: "the tangent of half the excess, from products of the corners",
     sound: || sweep(seen_triangle, exact_triangle),
     naive: || sweep(|h, s| excess(&corners(h, s).map(Vec3::normalize)[..3], 1.0), exact_triangle),
 };
@@ -22,6 +24,8 @@ pub(super) const TRIANGLE: HardCase = HardCase {
 pub(super) const RECTANGLE: HardCase = HardCase {
     name: "tiny rectangles",
     function: "SphericalRectangle",
+    problem: "four angles less 2π cancel: nothing is left below 1e-6 sr",
+    remedy: "two triangles, each by the tangent of half its excess",
     sound: || sweep(seen_rectangle, exact_rectangle),
     naive: || sweep(|h, s| excess(&corners(h, s).map(Vec3::normalize), 2.0), exact_rectangle),
 };

@@ -12,6 +12,8 @@ const ETA: f32 = 1.5;
 pub(super) const CASE: HardCase = HardCase {
     name: "transmission near grazing",
     function: "ThinDielectric",
+    problem: "1 − (R + T²R/(1 − R²)) divides one cancelled number by another",
+    remedy: "(1 − R)/(1 + R)",
     sound: || sweep(transmitted),
     naive: || sweep(by_series),
 };

@@ -9,6 +9,8 @@ use crate::measure::{Outcome, Worst};
 pub(super) const CASE: HardCase = HardCase {
     name: "never 1",
     function: "Real::from_random_bits",
+    problem: "x · 2⁻³² rounds to 1 for the last 128 integers",
+    remedy: "(x >> 8) · 2⁻²⁴",
     sound: || sweep(|bits| Real::from_random_bits(u64::from(bits) << 32)),
     naive: || sweep(|bits| bits as f32 * (1.0 / 4_294_967_296.0)),
 };

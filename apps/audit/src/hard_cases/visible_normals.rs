@@ -12,6 +12,8 @@ use crate::measure::{Outcome, Worst};
 pub(super) const CAP: HardCase = HardCase {
     name: "grazing visible normals",
     function: "ggx::sample_visible_normal",
+    problem: "√(1 − z²) of the spherical cap cancels near its poles",
+    remedy: "t = u (1 + Vz), sin² = t (2 − t)",
     sound: || sweep(ggx::sample_visible_normal::<f32>, ggx::sample_visible_normal::<f64>),
     naive: || sweep(cap_from_cosine, ggx::sample_visible_normal::<f64>),
 };
@@ -20,6 +22,8 @@ pub(super) const CAP: HardCase = HardCase {
 pub(super) const DISK: HardCase = HardCase {
     name: "grazing visible normals, projected disk",
     function: "ggx::sample_visible_normal_by_disk",
+    problem: "√(1 − t₁² − t₂²) cancels at the rim of the disk, and the height of the normal with it",
+    remedy: "the distance to the rim from the uniforms, products in place of differences",
     sound: || {
         sweep(ggx::sample_visible_normal_by_disk::<f32>, ggx::sample_visible_normal_by_disk::<f64>)
     },
@@ -30,6 +34,8 @@ pub(super) const DISK: HardCase = HardCase {
 pub(super) const BOUNDED_CAP: HardCase = HardCase {
     name: "grazing visible normals, bounded cap",
     function: "ggx::sample_bounded_normal",
+    problem: "(1 − u)(1 + b) − b and √(1 − z²) cancel as in the plain cap, and vz + z at the pole",
+    remedy: "t = u (1 + b), sin² = t (2 − t), sums of what is not negative",
     sound: || sweep(ggx::sample_bounded_normal::<f32>, ggx::sample_bounded_normal::<f64>),
     naive: || sweep(bounded_cap_as_printed, ggx::sample_bounded_normal::<f64>),
 };

@@ -55,14 +55,17 @@ impl<B: Bsdf> Bsdf for Mask<B> {
         u: [BsdfReal<Self>; 2],
     ) -> Option<Sample<B::Color>> {
         let one = BsdfReal::<B>::ONE;
+        let u_lobe = u_lobe.clamp_to(BsdfReal::<B>::ZERO, BsdfReal::<B>::ONE_MINUS_EPSILON);
         if u_lobe < self.opacity {
             let stretched = (u_lobe / self.opacity).min(BsdfReal::<B>::ONE_MINUS_EPSILON);
             let sample = self.inner.sample(wo, stretched, u)?;
-            let density = match sample.density {
-                Density::Continuous(pdf) => Density::Continuous(pdf * self.opacity),
-                Density::Delta(p) => Density::Delta(p * self.opacity),
+            let (density, p) = match sample.density {
+                Density::Continuous(pdf) => (Density::Continuous(pdf * self.opacity), pdf),
+                Density::Delta(p) => (Density::Delta(p * self.opacity), p),
             };
-            return Some(Sample { density, ..sample });
+            // The product underflows for an opacity of next to nothing.
+            return (p * self.opacity > BsdfReal::<B>::ZERO)
+                .then_some(Sample { density, ..sample });
         }
         exists(wo).then(|| Sample {
             wi: -wo,

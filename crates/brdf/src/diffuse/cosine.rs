@@ -22,3 +22,9 @@ pub(super) fn cosine_sample<B: Bsdf>(
     let density = Density::Continuous(pdf);
     (!weight.is_black()).then_some(Sample { wi, weight, density, eta: BsdfReal::<B>::ONE })
 }
+
+/// What values are limited to where they overflow: finite after a multiplication by π, too.
+#[inline(always)]
+pub(super) fn largest_value<T: Real>() -> T {
+    T::MAX * T::lit(0.25)
+}

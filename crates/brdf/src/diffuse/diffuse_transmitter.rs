@@ -105,6 +105,9 @@ impl<C: Spectrum> Bsdf for DiffuseTransmitter<C> {
             return None;
         }
         let pdf = probability * cosine_hemisphere::pdf::<C::Real>(wi);
+        if !(pdf > C::Real::ZERO) {
+            return None; // a share of next to nothing
+        }
         let below = across != (wo.z() < C::Real::ZERO);
         Some(Sample {
             wi: if below { wi.flip_z() } else { wi },

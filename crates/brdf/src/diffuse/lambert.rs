@@ -48,12 +48,12 @@ impl<C: Spectrum> Lambert<C> {
 impl<C: Spectrum> Bsdf for Lambert<C> {
     type Color = C;
 
-    #[inline]
+    #[inline(always)]
     fn lobes(&self) -> Lobes {
         Lobes::CONTINUOUS
     }
 
-    #[inline]
+    #[inline(always)]
     fn eval_pdf(&self, wo: BsdfVec<Self>, wi: BsdfVec<Self>) -> (C, BsdfReal<Self>) {
         if !both_above(wo, wi) {
             return (C::black(), C::Real::ZERO);
@@ -61,7 +61,7 @@ impl<C: Spectrum> Bsdf for Lambert<C> {
         (self.reflectance.scale(C::Real::FRAC_1_PI), cosine_hemisphere::pdf::<C::Real>(wi))
     }
 
-    #[inline]
+    #[inline(always)]
     fn sample(
         &self,
         wo: BsdfVec<Self>,
@@ -80,7 +80,7 @@ impl<C: Spectrum> Bsdf for Lambert<C> {
         })
     }
 
-    #[inline]
+    #[inline(always)]
     fn albedo(&self, wo: BsdfVec<Self>) -> Option<C> {
         Some(if above(wo) { self.reflectance } else { C::black() })
     }

@@ -3,7 +3,7 @@
 use etendue_math::{Real, Spectrum, Vec3, Vector3};
 use etendue_sampling::warp::cosine_hemisphere;
 
-use super::cosine::cosine_sample;
+use super::cosine::{cosine_sample, largest_value};
 use crate::bsdf::both_above;
 use crate::registry::{Albedo, Energy, ModelInfo, Reciprocity, parameter};
 use crate::{Bsdf, BsdfReal, BsdfVec, Lobes, Reflectance, Sample, Sigma};
@@ -150,9 +150,12 @@ impl<C: Spectrum> Bsdf for OrenNayar<C> {
         let tan_mean = (w.sin_alpha + w.sin_beta) / (w.cos_alpha + w.cos_beta);
         let direct = self.c1 + c2 * w.cos_phi * tan_beta + c3 * w.one_minus_abs_cos_phi * tan_mean;
         let twice = self.c4 * (one - w.cos_phi * b * b);
-        let value = self
-            .reflectance
-            .map(|rho| (rho * C::Real::FRAC_1_PI * (direct + rho * twice)).max(C::Real::ZERO));
+        // Where both cosines are subnormal the tangent overflows.
+        let value = self.reflectance.map(|rho| {
+            (rho * C::Real::FRAC_1_PI * (direct + rho * twice))
+                .max(C::Real::ZERO)
+                .min(largest_value())
+        });
         (value, cosine_hemisphere::pdf::<C::Real>(wi))
     }
 

@@ -3,7 +3,7 @@
 use etendue_math::{Real, Spectrum, Vector3};
 use etendue_sampling::warp::cosine_hemisphere;
 
-use super::cosine::cosine_sample;
+use super::cosine::{cosine_sample, largest_value};
 use crate::bsdf::both_above;
 use crate::registry::{Albedo, Energy, ModelInfo, Reciprocity, parameter};
 use crate::{Bsdf, BsdfReal, BsdfVec, Lobes, Reflectance, Sample, Sigma};
@@ -59,7 +59,9 @@ impl<C: Spectrum> Bsdf for OrenNayarQualitative<C> {
         }
         let projection = (wo.x() * wi.x() + wo.y() * wi.y()).max(C::Real::ZERO);
         let lobe = self.b * (projection / wo.z().max(wi.z()));
-        let value = self.reflectance.scale(C::Real::FRAC_1_PI * (self.a + lobe));
+        // Where both cosines are subnormal the quotient overflows.
+        let value =
+            self.reflectance.scale((C::Real::FRAC_1_PI * (self.a + lobe)).min(largest_value()));
         (value, cosine_hemisphere::pdf::<C::Real>(wi))
     }
 

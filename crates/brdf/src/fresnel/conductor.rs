@@ -22,8 +22,8 @@ use super::checked_cosine;
 ///
 /// # Precision
 /// A few ulp times the condition of the problem. The larger of a and b comes from a root of a sum,
-/// the other from their product, and `a − c` is `(d + b²) / (a + c)` where it would cancel, so
-/// that the dielectric limit k → 0, η → 1 keeps its digits.
+/// the other from their product, and `a² − c²` is `d + b²` where it would cancel, so that the dielectric
+/// limit k → 0, η → 1 keeps its digits.
 ///
 /// # Source
 /// Born and Wolf, Principles of Optics, section 14.2, with Rp expressed through Rs.
@@ -39,31 +39,33 @@ use super::checked_cosine;
 #[inline]
 pub fn conductor<T: Real>(cos_i: T, eta: T, k: T) -> T {
     let valid = eta >= T::ZERO && k >= T::ZERO && eta < T::INFINITY && k < T::INFINITY;
-    let Some(c) = checked_cosine(cos_i).filter(|_| valid) else { return T::ZERO };
+    checked_cosine(cos_i).filter(|_| valid).map_or(T::ZERO, |c| conductor_of_valid(c, eta, k))
+}
+
+/// The same for arguments known to lie in their domain, without a branch, so that channels are computed
+/// side by side.
+#[inline(always)]
+pub(crate) fn conductor_of_valid<T: Real>(c: T, eta: T, k: T) -> T {
     let s2 = (T::ONE - c) * (T::ONE + c);
     let d = (eta - T::ONE) * (eta + T::ONE) - k * k;
     let t = d + c * c;
     let product = eta * k;
     let root = (t * t + T::lit(4.0) * product * product).sqrt();
     let larger = (T::HALF * (root + t.abs())).sqrt();
-    let smaller = if larger > T::ZERO { product / larger } else { T::ZERO };
+    let smaller = product / larger;
     let (a, b) = if t >= T::ZERO { (larger, smaller) } else { (smaller, larger) };
-    let sum = a + c;
-    let (b2, sum2) = (b * b, sum * sum);
-    if !(sum2 + b2 > T::ZERO) {
-        return T::ONE; // grazing incidence on a matched index
-    }
-    // The difference cancels only where a ≈ c; there d + b² is the small number itself.
-    let difference = if b < T::HALF && sum > T::ZERO { (d + b2) / sum } else { a - c };
+    let (sum, b2) = (a + c, b * b);
+    // Squares of cosines below the root of the least number.
+    let sum2 = (sum * sum).max(T::MIN_POSITIVE);
+    // a² − c²: its factor a − c cancels only where a ≈ c; there d + b² is the small number itself.
+    let difference = if b < T::HALF { d + b2 } else { (a - c) * sum };
     let bc2 = b2 * c * c;
     let (plus, minus) = (a * c + s2, a * c - s2);
     let denominator = plus * plus + bc2;
-    if !(denominator > T::ZERO) {
-        return T::ONE; // as above
-    }
     // Rs and Rp share a factor: F = ½ Rs (1 + Rp/Rs), over one denominator.
-    let numerator = (difference * difference + b2) * (denominator + (minus * minus + bc2));
-    (T::HALF * numerator / ((sum2 + b2) * denominator)).min(T::ONE)
+    let numerator = (difference * difference + b2 * sum2) * (denominator + (minus * minus + bc2));
+    // 0/0 is grazing incidence on a matched index, where the minimum with NaN is 1 as well.
+    (T::HALF * numerator / (sum2 * (sum2 + b2) * denominator)).min(T::ONE)
 }
 
 #[cfg(test)]

@@ -28,6 +28,7 @@ pub use average::{
     dielectric_average_quotient_fit, dielectric_average_transmittance, schlick_average,
 };
 pub use conductor::conductor;
+pub(crate) use conductor::conductor_of_valid;
 pub use dielectric::{dielectric, dielectric_polarized, dielectric_transmittance};
 pub use f82::F82Tint;
 pub(crate) use refraction::{Refraction, refract_at};

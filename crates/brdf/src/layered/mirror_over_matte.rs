@@ -73,6 +73,9 @@ pub(super) fn sample<M: MirrorOverMatte>(
         let wi = cosine_hemisphere::from_square(u);
         let f = model.matte(wo.z(), wi.z());
         let pdf = probability * cosine_hemisphere::pdf::<BsdfReal<M>>(wi);
+        if !(pdf > BsdfReal::<M>::ZERO) {
+            return None; // a matte term of next to nothing
+        }
         // The cosine has been cancelled.
         (wi, f.scale(BsdfReal::<M>::PI / probability), Density::Continuous(pdf))
     };

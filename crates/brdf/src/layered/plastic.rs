@@ -34,10 +34,12 @@ impl<T: Real> PlasticInterface<T> {
         Self {
             eta,
             inverse_eta_squared,
+            // Below 1, which the fit exceeds and rounding reaches at extreme indices.
             internal: match internal {
                 InternalReflectance::Exact => dielectric_average(inverse),
                 InternalReflectance::Mitsuba => dielectric_average_fit(inverse),
-            },
+            }
+            .clamp_to(T::ZERO, T::ONE_MINUS_EPSILON),
             escape: (T::ONE - dielectric_average(eta)) * inverse_eta_squared,
         }
     }
@@ -156,8 +158,11 @@ impl<C: Spectrum> Bsdf for Plastic<C> {
             let wi = cosine_hemisphere::from_square(u);
             let probability = one - mirror;
             let t = t * self.transmittance(wi.z()) * self.interface.inverse_eta_squared;
-            let density = Density::Continuous(probability * cosine_hemisphere::pdf::<C::Real>(wi));
-            (wi, self.base.scale(t / probability), density)
+            let pdf = probability * cosine_hemisphere::pdf::<C::Real>(wi);
+            if !(pdf > C::Real::ZERO) {
+                return None; // the mirror takes all, or nearly, and the product underflows
+            }
+            (wi, self.base.scale(t / probability), Density::Continuous(pdf))
         };
         if !above(wi) || weight.is_black() {
             return None;

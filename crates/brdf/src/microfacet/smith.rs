@@ -102,7 +102,7 @@ impl<T: Real> Microfacets<T> {
     }
 
     /// `cos θ / G1(w)`, which is σ(w) except where a fit of G1 was asked for.
-    #[inline]
+    #[inline(always)]
     fn masking_area(&self, w: Vec3<T>) -> T {
         match self.distribution {
             Distribution::Beckmann { lambda: BeckmannLambda::Walter } => {
@@ -127,7 +127,7 @@ impl<T: Real> Microfacets<T> {
 
     /// `V = G2(wo, wi) / (4 |cos θo cos θi|)`; see the [module](super) for the form. 0 where both
     /// cosines vanish.
-    #[inline]
+    #[inline(always)]
     pub fn visibility(&self, wo: Vec3<T>, wi: Vec3<T>) -> T {
         let (area_o, area_i) = (self.masking_area(wo), self.masking_area(wi));
         let area = match self.masking {

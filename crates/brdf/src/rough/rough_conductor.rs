@@ -123,7 +123,7 @@ impl<C: Spectrum, S: NormalSampling<C::Real>> Bsdf for RoughConductor<C, S> {
         Lobes::CONTINUOUS
     }
 
-    #[inline]
+    #[inline(always)]
     fn eval_pdf(&self, wo: BsdfVec<Self>, wi: BsdfVec<Self>) -> (C, BsdfReal<Self>) {
         let nothing = (C::black(), C::Real::ZERO);
         if !both_above(wo, wi) {
@@ -133,6 +133,17 @@ impl<C: Spectrum, S: NormalSampling<C::Real>> Bsdf for RoughConductor<C, S> {
         let d = self.facets.ndf(h);
         let lobe = (d * self.facets.visibility(wo, wi)).min(C::Real::MAX);
         (self.reflectance(cos).scale(lobe), density(d, S::area(&self.facets, wo, h, cos)))
+    }
+
+    /// Without what the value alone needs: of the provided one the optimiser does not remove it.
+    #[inline]
+    fn pdf(&self, wo: BsdfVec<Self>, wi: BsdfVec<Self>) -> BsdfReal<Self> {
+        if !both_above(wo, wi) {
+            return C::Real::ZERO;
+        }
+        half_vector(wo, wi).map_or(C::Real::ZERO, |(h, cos)| {
+            density(self.facets.ndf(h), S::area(&self.facets, wo, h, cos))
+        })
     }
 
     #[inline]

@@ -45,7 +45,7 @@ impl<C: Spectrum> SmoothConductor<C> {
 /// [`fresnel::conductor`] per channel.
 #[inline(always)]
 pub(crate) fn conductor_reflectance<C: Spectrum>(ior: ComplexIor<C>, cos: C::Real) -> C {
-    ior.eta().zip(ior.k(), |eta, k| fresnel::conductor(cos, eta, k))
+    ior.eta().zip(ior.k(), |eta, k| fresnel::conductor_of_valid(cos, eta, k))
 }
 
 impl<C: Spectrum> Bsdf for SmoothConductor<C> {

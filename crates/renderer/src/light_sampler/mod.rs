@@ -15,7 +15,7 @@ use etendue_scene::light::{EmissionSides, LightBounds, LightId};
 use cluster::{Cluster, Faces};
 use cone::Cone;
 pub use receiver::{Receiver, Sides};
-use tree::LightTree;
+use tree::{Chosen, LightTree};
 
 /// Chooses one light, or one triangle of an emitting mesh, for a point on a surface.
 ///
@@ -108,16 +108,26 @@ impl LightSampler {
 
     /// Chooses a light by a uniform number `u` in `[0, 1)`. `None` where no light can reach the
     /// receiver, or none was found that can: the light brought there is 0 then.
-    #[inline]
+    #[inline(always)]
     pub fn choose(&self, receiver: &Receiver, u: f32) -> Option<LightChoice> {
+        if self.infinite.is_empty() {
+            return self.choose_finite(receiver, u);
+        }
         if u < self.infinite_share {
             return self.choose_infinite(u / self.infinite_share);
         }
         let rest = 1.0 - self.infinite_share;
         let u = ((u - self.infinite_share) / rest).min(f32::ONE_MINUS_EPSILON);
-        let chosen = self.tree.choose(receiver, u)?;
-        let (light, primitive) = self.emitters[chosen.emitter as usize];
-        Some(LightChoice { light, primitive, probability: rest * chosen.probability })
+        let choice = self.choose_finite(receiver, u)?;
+        Some(LightChoice { probability: rest * choice.probability, ..choice })
+    }
+
+    /// Chooses among the lights in the tree.
+    #[inline(always)]
+    fn choose_finite(&self, receiver: &Receiver, u: f32) -> Option<LightChoice> {
+        let Chosen { emitter, probability } = self.tree.choose(receiver, u)?;
+        let (light, primitive) = self.emitters[emitter as usize];
+        Some(LightChoice { light, primitive, probability })
     }
 
     /// The probability with which [`choose`](Self::choose) returns this light and primitive, to the
@@ -134,6 +144,7 @@ impl LightSampler {
         }
     }
 
+    #[inline(never)]
     fn choose_infinite(&self, mut u: f32) -> Option<LightChoice> {
         let last = self.infinite.len().checked_sub(1)?;
         for (i, infinite) in self.infinite.iter().enumerate() {

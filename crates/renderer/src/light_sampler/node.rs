@@ -56,7 +56,7 @@ impl Node {
     }
 
     /// What hangs below.
-    #[inline]
+    #[inline(always)]
     pub(super) fn link(&self) -> Link {
         let index = self.link & INDEX;
         if self.link & EMITTER == 0 { Link::Pair(index) } else { Link::Emitter(index) }
@@ -78,28 +78,47 @@ impl Node {
     /// Rendering", 4th edition, section 12.6.3. Departures: the distance is limited by r² (there:
     /// by r, which depends on the unit of length), and a receiver that only reflects sees
     /// nothing behind it.
-    #[inline]
+    #[inline(always)]
     pub(super) fn importance(&self, receiver: &Receiver) -> f32 {
+        let to_cluster = self.centre - receiver.position;
+        self.importance_along(
+            to_cluster.length_squared(),
+            to_cluster.dot(self.axis),
+            to_cluster.dot(receiver.normal),
+            receiver.sides,
+        )
+    }
+
+    /// The same from the squared distance of the cluster and its projections on its own axis and on
+    /// the receiver's normal.
+    ///
+    /// Out of line; numbers instead of the receiver, which a reference would keep in memory on every
+    /// path.
+    #[inline(never)]
+    fn importance_along(
+        &self,
+        distance_squared: f32,
+        along_axis: f32,
+        along_normal: f32,
+        sides: Sides,
+    ) -> f32 {
         // Cosines of clamped differences; a thousandth covers the rounding of all that follows.
         const GRAZING: f32 = 1e-3;
-        let to_cluster = self.centre - receiver.position;
-        let distance_squared = to_cluster.length_squared();
         let radius_squared = self.radius * self.radius;
         if distance_squared <= radius_squared || distance_squared < f32::MIN_POSITIVE {
             return self.power / radius_squared.max(NEAREST);
         }
         let per_distance = 1.0 / distance_squared.sqrt();
-        let direction = to_cluster * per_distance;
         let bound = Angle::from_sin(self.radius * per_distance);
 
-        let cos_w = -direction.dot(self.axis);
+        let cos_w = -along_axis * per_distance;
         let cos_w = if self.link & BOTH_FACES == 0 { cos_w } else { cos_w.abs() };
         let emission = Angle::from_cos(cos_w).minus(self.normals).minus(bound);
         if emission.cos < self.cos_emission - GRAZING {
             return 0.0;
         }
-        let cos_i = direction.dot(receiver.normal);
-        let cos_i = if receiver.sides == Sides::Both { cos_i.abs() } else { cos_i };
+        let cos_i = along_normal * per_distance;
+        let cos_i = if sides == Sides::Both { cos_i.abs() } else { cos_i };
         let incident = Angle::from_cos(cos_i).minus(bound);
         if incident.cos < -GRAZING {
             return 0.0;

@@ -39,7 +39,7 @@ impl Pair {
     }
 
     /// The two.
-    #[inline]
+    #[inline(always)]
     pub(super) fn nodes(&self) -> &[Node; 2] {
         &self.nodes
     }
@@ -48,7 +48,7 @@ impl Pair {
     ///
     /// In proportion to [importance](Node::importance), or to power where both are far away and
     /// shine in the same direction: distance and cosines are much the same then.
-    #[inline]
+    #[inline(always)]
     pub(super) fn shares(&self, receiver: &Receiver) -> Option<[f32; 2]> {
         if let Some(panel) = &self.panel {
             let to_panel = panel.centre - receiver.position;
@@ -82,7 +82,7 @@ impl Panel {
 
     /// `None` only where the whole sphere around the panel lies behind the receiver, or the receiver
     /// behind all of the panel.
-    #[inline]
+    #[inline(always)]
     fn shares(
         &self,
         receiver: &Receiver,
@@ -105,7 +105,7 @@ impl Panel {
 ///
 /// `1 − first` instead of `b/(a + b)`: the second is taken for all the rest of the unit interval.
 /// What is of some importance keeps it in the face of rounding.
-#[inline]
+#[inline(always)]
 fn split(a: f32, b: f32) -> [f32; 2] {
     let first = (a / (a + b)).clamp(0.5 * f32::EPSILON, f32::ONE_MINUS_EPSILON);
     [first, 1.0 - first]

@@ -51,7 +51,7 @@ impl LightTree {
     }
 
     /// Chooses an emitter by one uniform number; `None` where none can light the receiver.
-    #[inline]
+    #[inline(always)]
     pub(super) fn choose(&self, receiver: &Receiver, mut u: f32) -> Option<Chosen> {
         let mut link = self.root_for(receiver)?.link();
         let mut probability = 1.0;
@@ -60,16 +60,12 @@ impl LightTree {
                 Link::Emitter(emitter) => return Some(Chosen { emitter, probability }),
                 Link::Pair(index) => {
                     let pair = &self.pairs[index as usize];
-                    let [first, second] = pair.shares(receiver)?;
-                    if u < first {
-                        link = pair.nodes()[0].link();
-                        probability *= first;
-                        u /= first;
-                    } else {
-                        link = pair.nodes()[1].link();
-                        probability *= second;
-                        u = (u - first) / second;
-                    }
+                    let shares = pair.shares(receiver)?;
+                    // Looked up: a branch would be as good as random.
+                    let side = usize::from(u >= shares[0]);
+                    link = pair.nodes()[side].link();
+                    probability *= shares[side];
+                    u = (u - [0.0, shares[0]][side]) / shares[side];
                     u = u.min(f32::ONE_MINUS_EPSILON);
                 }
             }
@@ -77,7 +73,7 @@ impl LightTree {
     }
 
     /// The probability with which `choose` returns `emitter`, the same bits.
-    #[inline]
+    #[inline(always)]
     pub(super) fn probability(&self, receiver: &Receiver, emitter: u32) -> f32 {
         self.try_probability(receiver, emitter).unwrap_or(0.0)
     }
@@ -98,7 +94,7 @@ impl LightTree {
 
     /// The root, if it is of any importance. A pair's importances are not asked for here: a tree of
     /// more than one emitter decides at its first pair.
-    #[inline]
+    #[inline(always)]
     fn root_for(&self, receiver: &Receiver) -> Option<&Node> {
         let root = self.root.as_ref()?;
         let decides_below = matches!(root.link(), Link::Pair(_));

@@ -2,9 +2,10 @@
 
 use etendue_brdf::{Bsdf, Density};
 use etendue_math::Spectrum;
+use etendue_math::glam::Vec3;
 use etendue_sampling::{Decision, Sampler, mis};
 use etendue_scene::Color;
-use etendue_scene::geometry::SurfacePoint;
+use etendue_scene::geometry::{Rays, SurfacePoint};
 use etendue_scene::light::LightSample;
 
 use super::{LightSampling, PathTracer, Several, Vertex};
@@ -12,8 +13,9 @@ use crate::light_sampler::Receiver;
 use crate::settings::Strategy;
 use crate::statistics::RayCounts;
 
-impl PathTracer<'_, '_> {
+impl<R: Rays> PathTracer<'_, '_, R> {
     /// An estimate, by one light sample, of the light scattered towards the camera.
+    #[inline(always)]
     pub(super) fn direct_light<S: Sampler>(
         &self,
         vertex: &Vertex<'_, '_>,
@@ -43,7 +45,7 @@ impl PathTracer<'_, '_> {
     }
 
     /// A light sample; its density accounts for the choice of the light.
-    #[inline]
+    #[inline(always)]
     fn sample_light<S: Sampler>(&self, vertex: &Vertex<'_, '_>, points: &S) -> Option<LightSample> {
         let u = if self.lights.count() > 1 {
             points.sample_1d(vertex.dimension(Decision::LightChoice))
@@ -58,7 +60,13 @@ impl PathTracer<'_, '_> {
             Density::Continuous(_)
                 if sample.target.is_none() && self.several_infinite_lights == Several::Yes =>
             {
-                return Some(self.over_all_infinite_lights(&vertex.receiver, &sample));
+                let (radiance, density) =
+                    self.over_all_infinite_lights(Receiver { ..vertex.receiver }, sample.direction);
+                return Some(LightSample {
+                    radiance,
+                    density: Density::Continuous(density),
+                    ..sample
+                });
             }
             Density::Continuous(p) => Density::Continuous(p * choice.probability),
             Density::Delta(p) => Density::Delta(p * choice.probability),
@@ -66,17 +74,17 @@ impl PathTracer<'_, '_> {
         Some(sample)
     }
 
-    /// The same direction as if drawn from the mixture of all infinite lights: what the scattered
-    /// ray that leaves the scene in this direction finds, too.
-    fn over_all_infinite_lights(&self, receiver: &Receiver, sample: &LightSample) -> LightSample {
-        LightSample {
-            radiance: self.scene.background(sample.direction),
-            density: Density::Continuous(self.infinite_density(receiver, sample.direction)),
-            ..*sample
-        }
+    /// Radiance and density of a direction as if drawn from the mixture of all infinite lights: what
+    /// the scattered ray that leaves the scene in this direction finds, too.
+    ///
+    /// Out of line, and with a copy of the receiver: a reference would keep it in memory on every path.
+    #[inline(never)]
+    fn over_all_infinite_lights(&self, receiver: Receiver, direction: Vec3) -> (Color, f32) {
+        (self.scene.background(direction), self.infinite_density(&receiver, direction))
     }
 
     /// Weight of light that light sampling has found and that scattering could have found.
+    #[inline(always)]
     fn light_weight(&self, light_density: f32, scattering_density: f32) -> f32 {
         match self.strategy {
             Strategy::Mis => mis::power(light_density, scattering_density),
@@ -85,12 +93,13 @@ impl PathTracer<'_, '_> {
         }
     }
 
+    #[inline(always)]
     fn occluded(&self, point: &SurfacePoint, sample: &LightSample, rays: &mut RayCounts) -> bool {
         rays.shadow += 1;
         let ray = match sample.target {
             Some(target) => point.spawn_to(target),
             None => point.spawn(sample.direction),
         };
-        self.scene.geometry.occluded(&ray)
+        self.rays.occluded(&ray)
     }
 }

@@ -4,40 +4,72 @@ use etendue_math::Spectrum;
 use etendue_math::glam::Vec3;
 use etendue_sampling::mis;
 use etendue_scene::Color;
-use etendue_scene::geometry::SurfacePoint;
+use etendue_scene::geometry::{Rays, SurfacePoint};
 use etendue_scene::light::LightId;
 
 use super::{Arrival, PathTracer, Walk};
 use crate::light_sampler::Receiver;
 use crate::settings::Strategy;
 
-impl PathTracer<'_, '_> {
+impl<R: Rays> PathTracer<'_, '_, R> {
     /// Light that the surface itself emits along the ray, weighted for how the ray was found.
+    #[inline(always)]
     pub(super) fn emitted(&self, walk: &Walk, point: &SurfacePoint) -> Color {
         let direction = walk.ray.direction;
         let Some((light, radiance)) = self.scene.emitted(point, -direction) else {
             return Color::black();
         };
-        let weight = self.scattering_weight(&walk.arrival, |receiver, from| {
-            self.lights.probability(receiver, light, point.primitive)
-                * self.scene.light_pdf_hit(light, from, point)
-        });
+        let weight = match walk.arrival {
+            Arrival::Certain => 1.0,
+            Arrival::Scattered { receiver, density } => {
+                let (receiver, point) = (Receiver { ..receiver }, SurfacePoint { ..*point });
+                self.weight_of_hit(receiver, density, light, point)
+            }
+        };
         radiance * weight
     }
 
+    /// The weight of light that a scattered ray has found on a surface.
+    ///
+    /// Out of line, because few rays do, and with copies field by field: a reference would keep what
+    /// every path carries in memory, and so would a copy that the compiler sees through.
+    #[inline(never)]
+    fn weight_of_hit(
+        &self,
+        receiver: Receiver,
+        density: f32,
+        light: LightId,
+        point: SurfacePoint,
+    ) -> f32 {
+        self.scattering_weight(density, || {
+            self.lights.probability(&receiver, light, point.primitive)
+                * self.scene.light_pdf_hit(light, receiver.position, &point)
+        })
+    }
+
     /// Light from infinitely far away, weighted for how the ray was found.
+    #[inline(always)]
     pub(super) fn escaped(&self, walk: &Walk) -> Color {
-        let direction = walk.ray.direction;
         // A ray that ends at the far clipping plane has seen nothing yet, but only cameras have one.
         if self.hides_emitters(walk) || self.scene.infinite_lights().is_empty() {
             return Color::black();
         }
+        match walk.arrival {
+            Arrival::Certain => self.scene.background(walk.ray.direction),
+            Arrival::Scattered { receiver, density } => {
+                self.found_background(Receiver { ..receiver }, density, walk.ray.direction)
+            }
+        }
+    }
+
+    /// Light that a scattered ray has found by leaving the scene, weighted; out of line as well.
+    #[inline(never)]
+    fn found_background(&self, receiver: Receiver, density: f32, direction: Vec3) -> Color {
         let radiance = self.scene.background(direction);
         if radiance.is_black() {
             return radiance;
         }
-        let density = |receiver: &Receiver, _| self.infinite_density(receiver, direction);
-        radiance * self.scattering_weight(&walk.arrival, density)
+        radiance * self.scattering_weight(density, || self.infinite_density(&receiver, direction))
     }
 
     /// Density with which light sampling draws a direction towards infinite lights.
@@ -49,19 +81,14 @@ impl PathTracer<'_, '_> {
         self.scene.infinite_lights().iter().map(density).sum()
     }
 
-    /// Weight of light that a scattered ray has found and that light sampling would have found with
-    /// density `light_density(receiver, position)`.
-    fn scattering_weight(
-        &self,
-        arrival: &Arrival,
-        light_density: impl FnOnce(&Receiver, Vec3) -> f32,
-    ) -> f32 {
-        match (arrival, self.strategy) {
-            (Arrival::Certain, _) | (_, Strategy::BsdfOnly) => 1.0,
-            (_, Strategy::LightOnly) => 0.0,
-            (Arrival::Scattered { receiver, position, density }, Strategy::Mis) => {
-                mis::power(*density, light_density(receiver, *position))
-            }
+    /// Weight of light that a ray scattered with a density has found and that light sampling would
+    /// have found with density `light_density()`.
+    #[inline]
+    fn scattering_weight(&self, density: f32, light_density: impl FnOnce() -> f32) -> f32 {
+        match self.strategy {
+            Strategy::BsdfOnly => 1.0,
+            Strategy::LightOnly => 0.0,
+            Strategy::Mis => mis::power(density, light_density()),
         }
     }
 }

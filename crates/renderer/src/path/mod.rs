@@ -8,7 +8,7 @@ use etendue_brdf::Bsdf;
 use etendue_math::Spectrum;
 use etendue_math::glam::Vec3;
 use etendue_sampling::{Decision, Dimension, Sampler};
-use etendue_scene::geometry::{Ray, SurfacePoint};
+use etendue_scene::geometry::{Ray, Rays, SurfacePoint};
 use etendue_scene::light::Light;
 use etendue_scene::material::{PreparedBsdf, PreparedMaterials, Side};
 use etendue_scene::scene::PathSettings;
@@ -33,7 +33,8 @@ use crate::statistics::RayCounts;
 /// Transport Simulation", 1997, chapters 9 and 10. Depth, roulette and hidden emitters count as
 /// in Mitsuba 3's `path`, pass-through surfaces included: each is a vertex of its own.
 #[derive(Clone, Copy)]
-pub(crate) struct PathTracer<'a, 's> {
+pub(crate) struct PathTracer<'a, 's, R> {
+    rays: R,
     scene: &'s Scene,
     materials: &'a PreparedMaterials<'s>,
     lights: &'a LightSampler,
@@ -63,7 +64,7 @@ enum Arrival {
     /// By the camera or a delta lobe: light sampling could not have found the same light.
     Certain,
     /// Scattered at a surface, with a density per steradian.
-    Scattered { receiver: Receiver, position: Vec3, density: f32 },
+    Scattered { receiver: Receiver, density: f32 },
 }
 
 /// What of the camera's view has been crossed so far.
@@ -108,8 +109,9 @@ enum Fate {
     Ends,
 }
 
-impl<'a, 's> PathTracer<'a, 's> {
+impl<'a, 's, R: Rays> PathTracer<'a, 's, R> {
     pub(crate) fn new(
+        rays: R,
         scene: &'s Scene,
         materials: &'a PreparedMaterials<'s>,
         lights: &'a LightSampler,
@@ -122,6 +124,7 @@ impl<'a, 's> PathTracer<'a, 's> {
         let several_infinite_lights =
             if scene.infinite_lights().len() > 1 { Several::Yes } else { Several::No };
         Self {
+            rays,
             scene,
             materials,
             lights,
@@ -135,6 +138,7 @@ impl<'a, 's> PathTracer<'a, 's> {
     /// An estimate of the radiance that arrives along a ray of the camera.
     ///
     /// Paths end after `u16::MAX` edges at the latest: random numbers have no more addresses.
+    #[inline(always)]
     pub(crate) fn radiance<S: Sampler>(
         &self,
         camera_ray: Ray,
@@ -175,9 +179,10 @@ impl<'a, 's> PathTracer<'a, 's> {
     }
 
     /// The surface that the ray meets; a camera that must not see emitters looks through them.
+    #[inline(always)]
     fn next_surface(&self, walk: &mut Walk, rays: &mut RayCounts) -> Option<SurfacePoint> {
         loop {
-            let hit = self.scene.geometry.intersect(&walk.ray)?;
+            let hit = self.rays.intersect(&walk.ray)?;
             let point = self.scene.geometry.surface_point(&walk.ray, &hit);
             if !(self.hides_emitters(walk) && self.is_emitter(&point)) {
                 return Some(point);
@@ -191,17 +196,19 @@ impl<'a, 's> PathTracer<'a, 's> {
         }
     }
 
+    #[inline(always)]
     fn hides_emitters(&self, walk: &Walk) -> bool {
         self.settings.hide_emitters && walk.view == View::Unobstructed
     }
 
+    #[inline(always)]
     fn is_emitter(&self, point: &SurfacePoint) -> bool {
         self.scene.surfaces[point.shape.0 as usize].light.is_some()
     }
 
     /// The vertex at a point; `varying` holds the reflection model where textures make it one of its
     /// own.
-    #[inline]
+    #[inline(always)]
     fn vertex<'v>(
         &'v self,
         depth: u16,

@@ -4,11 +4,13 @@ use etendue_brdf::{Bsdf, Density};
 use etendue_math::Spectrum;
 use etendue_math::glam::Vec3;
 use etendue_sampling::{Decision, Sampler};
+use etendue_scene::geometry::Rays;
 
 use super::{Arrival, Fate, PathTracer, Vertex, View, Walk};
 
-impl PathTracer<'_, '_> {
+impl<R: Rays> PathTracer<'_, '_, R> {
     /// Chooses where the path goes on, and whether it does.
+    #[inline(always)]
     pub(super) fn scatter<S: Sampler>(
         &self,
         vertex: &Vertex<'_, '_>,
@@ -26,11 +28,9 @@ impl PathTracer<'_, '_> {
         walk.eta *= sample.eta;
         walk.arrival = match sample.density {
             Density::Delta(_) => Arrival::Certain,
-            Density::Continuous(density) => Arrival::Scattered {
-                receiver: vertex.receiver,
-                position: vertex.point.position,
-                density,
-            },
+            Density::Continuous(density) => {
+                Arrival::Scattered { receiver: vertex.receiver, density }
+            }
         };
         // A pass-through is the one delta direction that goes straight on.
         if !(matches!(sample.density, Density::Delta(_)) && sample.wi == -vertex.wo) {
@@ -46,6 +46,7 @@ impl PathTracer<'_, '_> {
 
     /// Whether strict normals forbid a direction, given in world and local coordinates: it lies on
     /// different sides of the surface and of its interpolated normal.
+    #[inline(always)]
     pub(super) fn is_inconsistent(
         &self,
         vertex: &Vertex<'_, '_>,
@@ -62,6 +63,7 @@ impl PathTracer<'_, '_> {
     /// ```
     ///
     /// η² undoes the compression of radiance inside a medium, which the way out reverses.
+    #[inline(always)]
     fn roulette<S: Sampler>(&self, vertex: &Vertex<'_, '_>, walk: &mut Walk, points: &S) -> Fate {
         let largest = walk.throughput.max_channel();
         // False for NaN, which goes on to be counted where it reaches the film.

@@ -27,7 +27,7 @@ use super::{disk, into_unit, turn};
 /// assert_eq!(w.z, 1.0);
 /// assert_eq!(cosine_hemisphere::pdf::<f32>(w), std::f32::consts::FRAC_1_PI);
 /// ```
-#[inline]
+#[inline(always)]
 pub fn from_square<T: Real>(u: [T; 2]) -> Vec3<T> {
     let point = disk::concentric(u);
     Vec3::<T>::new(point.x, point.y, point.one_minus_radius_squared.sqrt())
@@ -67,7 +67,7 @@ pub fn to_square_polar<T: Real>(w: Vec3<T>) -> [T; 2] {
 }
 
 /// Density per steradian of both maps: `max(z, 0)/π`.
-#[inline]
+#[inline(always)]
 pub fn pdf<T: Real>(w: Vec3<T>) -> T {
     w.z().max(T::ZERO) * T::FRAC_1_PI
 }

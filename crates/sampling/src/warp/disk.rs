@@ -16,22 +16,23 @@ pub(crate) struct DiskPoint<T> {
 }
 
 /// Concentric squares to concentric circles.
-#[inline]
+#[inline(always)]
 pub(crate) fn concentric<T: Real>([u, v]: [T; 2]) -> DiskPoint<T> {
     let (a, b) = (T::TWO * u - T::ONE, T::TWO * v - T::ONE);
     // 1 − |a| and 1 − |b| from the uniforms themselves, where they are exact.
-    let [rim_a, rim_b] = [u, v].map(|u| T::TWO * u.min(T::ONE - u));
-    let quarter_pi = T::lit(0.25) * T::PI;
-    // |a| > |b|, which rounding of a and b could not tell near the corners.
-    let (r, rim, x, y) = if rim_a < rim_b {
-        let (sin, cos) = (quarter_pi * (b / a)).sin_cos();
-        (a, rim_a, a * cos, a * sin)
-    } else if b != T::ZERO {
-        let (sin, cos) = (quarter_pi * (a / b)).sin_cos();
-        (b, rim_b, b * sin, b * cos)
-    } else {
-        (T::ZERO, T::ONE, T::ZERO, T::ZERO)
-    };
+    let (rest_u, rest_v) = (T::ONE - u, T::ONE - v);
+    let rim_a = T::TWO * if u < rest_u { u } else { rest_u };
+    let rim_b = T::TWO * if v < rest_v { v } else { rest_v };
+    // |a| > |b|, which rounding of a and b could not tell near the corners. The order is looked up:
+    // a branch would be as good as random.
+    let (order, rim) = if rim_a < rim_b { (0, rim_a) } else { (1, rim_b) };
+    let longer_first = [a, b, a];
+    let (r, other) = (longer_first[order], longer_first[order + 1]);
+    let ratio = if r == T::ZERO { T::ZERO } else { other / r };
+    let (sin, cos) = ratio.sin_cos_eighth_turn();
+    let (along, across) = (r * cos, r * sin);
+    let x_first = [along, across, along];
+    let (x, y) = (x_first[order], x_first[order + 1]);
     DiskPoint { x, y, radius_squared: r * r, one_minus_radius_squared: rim * (T::ONE + r.abs()) }
 }
 

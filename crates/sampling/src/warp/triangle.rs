@@ -24,15 +24,12 @@ use super::{accurate_cross, into_unit};
 /// use etendue_sampling::warp::triangle;
 /// assert_eq!(triangle::from_square([0.5_f32, 0.5]), [0.25, 0.25, 0.5]);
 /// ```
-#[inline]
+#[inline(always)]
 pub fn from_square<T: Real>([u, v]: [T; 2]) -> [T; 3] {
-    let (b0, b1) = if v > u {
-        let half = T::HALF * u;
-        (half, v - half)
-    } else {
-        let half = T::HALF * v;
-        (u - half, half)
-    };
+    // The smaller one less its half is that half: both cases in one, because a branch on which one
+    // is smaller would be as good as random.
+    let half = T::HALF * if v > u { u } else { v };
+    let (b0, b1) = (u - half, v - half);
     [b0, b1, (T::ONE - b0 - b1).max(T::ZERO)]
 }
 

@@ -23,7 +23,7 @@ use etendue_math::Real;
 #[inline]
 pub fn sin_cos<T: Real>(u: T) -> (T, T) {
     let nearest = (u * T::lit(4.0) + T::HALF).floor();
-    let (sin, cos) = ((u - nearest * T::lit(0.25)) * (T::TWO * T::PI)).sin_cos();
+    let (sin, cos) = ((u - nearest * T::lit(0.25)) * T::lit(8.0)).sin_cos_eighth_turn();
     let quarter = nearest - T::lit(4.0) * (nearest * T::lit(0.25)).floor();
     if quarter == T::ONE {
         (cos, -sin)

@@ -155,7 +155,7 @@ impl Cylinder {
                 (azimuth(sin, cos) * 0.5 * <f64 as Real>::FRAC_1_PI) as f32,
                 (z / self.length) as f32,
             ],
-            tangents: Some([around.as_vec3(), (n * self.length).as_vec3()]),
+            tangent: Some(around.as_vec3()),
             primitive: 0,
         }
     }

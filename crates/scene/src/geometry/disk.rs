@@ -78,10 +78,7 @@ impl Disk {
             normal: self.normal,
             shading_normal: self.normal,
             uv: [r as f32, (azimuth(y, x) * 0.5 * <f64 as Real>::FRAC_1_PI) as f32],
-            tangents: Some([
-                to_world.transform_vector3(DVec3::new(cos, sin, 0.0)).as_vec3(),
-                to_world.transform_vector3(DVec3::new(-sin, cos, 0.0)).as_vec3(),
-            ]),
+            tangent: Some(to_world.transform_vector3(DVec3::new(cos, sin, 0.0)).as_vec3()),
             primitive: 0,
         }
     }
@@ -111,7 +108,7 @@ mod tests {
         assert_eq!(disk.intersect(&ray), Some(3.0));
         let p = disk.surface(&ray);
         assert_eq!((p.uv, p.normal), ([0.5, 0.25], Vec3::Z));
-        assert_eq!(p.tangents, Some([Vec3::Y * 2.0, Vec3::X * -4.0]));
+        assert_eq!(p.tangent, Some(Vec3::Y * 2.0));
         assert_eq!(disk.intersect(&Ray::new(Vec3::new(0.0, 2.1, 3.0), -Vec3::Z)), None);
         assert_eq!(disk.intersect(&Ray::new(Vec3::X, Vec3::Y)), None);
     }

@@ -157,7 +157,7 @@ impl TriangleMesh {
     fn compute_facets(&mut self) {
         let front = |&[i, j, k]: &[u32; 3]| {
             let indices = [i as usize, j as usize, k as usize];
-            let mut facet = Facet::of(&indices.map(|v| self.positions[v]));
+            let mut facet = Facet::of(indices.map(|v| self.positions[v]));
             let outward: Vec3 = match self.normals.as_slice() {
                 [] => facet.normal,
                 // One decision per triangle: the front must not change within it.
@@ -172,17 +172,22 @@ impl TriangleMesh {
         self.facets = self.triangles.iter().map(front).collect();
     }
 
+    /// One facet per triangle.
+    #[inline(always)]
+    pub(crate) fn facets(&self) -> &[Facet] {
+        &self.facets
+    }
+
     /// The facet of a triangle, `triangle < self.triangles().len()`.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn facet(&self, triangle: u32) -> &Facet {
         &self.facets[triangle as usize]
     }
 
     /// The corners of a triangle, `triangle < self.triangles().len()`.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn corners(&self, triangle: u32) -> Corners {
-        let [i, j, k] = self.triangles[triangle as usize];
-        [self.positions[i as usize], self.positions[j as usize], self.positions[k as usize]]
+        self.facet(triangle).corners
     }
 
     pub(crate) fn bounds(&self) -> Aabb {
@@ -192,64 +197,69 @@ impl TriangleMesh {
     /// The point of a triangle with the barycentric weights `b₁, b₂` of its later corners.
     ///
     /// ```text
-    /// ∂p/∂u = (Δv₂ e₁ − Δv₁ e₂)/D,  ∂p/∂v = (Δu₁ e₂ − Δu₂ e₁)/D,  D = Δu₁ Δv₂ − Δv₁ Δu₂
+    /// ∂p/∂u = (Δv₂ e₁ − Δv₁ e₂)/D,  D = Δu₁ Δv₂ − Δv₁ Δu₂
     /// ```
     ///
-    /// Without texture coordinates, `(u, v) = (b₁, b₂)` and the tangents are any two that are
+    /// Without texture coordinates, `(u, v) = (b₁, b₂)` and the tangent is any that is
     /// orthogonal to the normal.
     ///
     /// # Source
     /// Mitsuba 3, `Mesh::compute_surface_interaction`. There, vertex normals on the other side of
     /// the geometric one leave the two at odds; here the geometric normal follows.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn surface(&self, triangle: u32, barycentric: [f32; 2]) -> LocalSurface {
-        let [b1, b2] = barycentric;
         let facet = self.facet(triangle);
-        let corners = self.corners(triangle);
-        let (position, error) = facet.point(&corners, b1, b2);
+        let (position, error) = facet.point(barycentric);
         LocalSurface {
             position,
             error,
             normal: facet.normal,
             shading_normal: self.shading_normal(triangle, barycentric).unwrap_or(facet.normal),
             uv: self.uv(triangle, barycentric),
-            tangents: self.tangents(triangle, &corners),
+            tangent: self.tangent(triangle, &facet.corners),
             primitive: triangle,
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn shading_normal(&self, triangle: u32, [b1, b2]: [f32; 2]) -> Option<Vec3> {
-        let [n0, n1, n2] = corner_values(&self.normals, self.triangles[triangle as usize])?;
+        let [n0, n1, n2] = self.corner_values(&self.normals, triangle)?;
         let normal = Vector3::try_normalize(n0 * (1.0 - b1 - b2) + n1 * b1 + n2 * b2)?;
         Some(if self.flipped { -normal } else { normal })
     }
 
-    #[inline]
+    #[inline(always)]
     fn uv(&self, triangle: u32, [b1, b2]: [f32; 2]) -> [f32; 2] {
-        match corner_values(&self.uvs, self.triangles[triangle as usize]) {
+        match self.corner_values(&self.uvs, triangle) {
             Some([t0, t1, t2]) => (t0 * (1.0 - b1 - b2) + t1 * b1 + t2 * b2).to_array(),
             None => [b1, b2],
         }
     }
 
-    #[inline]
-    fn tangents(&self, triangle: u32, [v0, v1, v2]: &Corners) -> Option<[Vec3; 2]> {
-        let [t0, t1, t2] = corner_values(&self.uvs, self.triangles[triangle as usize])?;
+    #[inline(always)]
+    fn tangent(&self, triangle: u32, [v0, v1, v2]: &Corners) -> Option<Vec3> {
+        let [t0, t1, t2] = self.corner_values(&self.uvs, triangle)?;
         let (d1, d2) = (t1 - t0, t2 - t0);
         let (e1, e2) = (*v1 - *v0, *v2 - *v0);
         let scale = 1.0 / (d1.x * d2.y - d1.y * d2.x);
-        let du = (e1 * d2.y - e2 * d1.y) * scale;
-        let dv = (e2 * d1.x - e1 * d2.x) * scale;
-        (du.is_finite() && dv.is_finite()).then_some([du, dv])
+        Some((e1 * d2.y - e2 * d1.y) * scale).filter(|du| du.is_finite())
+    }
+
+    /// What the mesh knows of the three corners; `None` where it knows nothing of the kind.
+    #[inline(always)]
+    fn corner_values<T: Copy>(&self, values: &[T], triangle: u32) -> Option<[T; 3]> {
+        if values.is_empty() {
+            return None;
+        }
+        let [i, j, k] = self.triangles[triangle as usize];
+        Some([values[i as usize], values[j as usize], values[k as usize]])
     }
 
     /// The same point as a sample of the triangle's area.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn at(&self, triangle: u32, barycentric: [f32; 2]) -> ShapeSample {
-        let [b1, b2] = barycentric;
         let facet = self.facet(triangle);
-        let (position, error) = facet.point(&self.corners(triangle), b1, b2);
+        let (position, error) = facet.point(barycentric);
         ShapeSample {
             position,
             error,
@@ -258,15 +268,6 @@ impl TriangleMesh {
             pdf_area: if facet.area > 0.0 { 1.0 / facet.area } else { 0.0 },
         }
     }
-}
-
-/// What a mesh knows of the three corners; `None` for a mesh that knows nothing of the kind.
-#[inline]
-fn corner_values<T: Copy>(values: &[T], [i, j, k]: [u32; 3]) -> Option<[T; 3]> {
-    if values.is_empty() {
-        return None;
-    }
-    Some([values[i as usize], values[j as usize], values[k as usize]])
 }
 
 #[cfg(test)]
@@ -323,15 +324,15 @@ mod tests {
     }
 
     #[test]
-    fn tangents_follow_the_texture_coordinates() {
+    fn the_tangent_follows_the_texture_coordinates() {
         let uvs = vec![Vec2::ZERO, Vec2::new(0.0, 0.5), Vec2::new(-2.0, 0.0)];
         let p = one(vec![], uvs).surface(0, [0.5, 0.25]);
         assert_eq!(p.uv, [-0.5, 0.25]);
-        assert_eq!(p.tangents, Some([Vec3::Y * -0.5, Vec3::X * 2.0]));
-        // All three vertices at one place of the texture: any tangents will do.
+        assert_eq!(p.tangent, Some(Vec3::Y * -0.5));
+        // All three vertices at one place of the texture: any tangent will do.
         let p = one(vec![], vec![Vec2::ONE; 3]).surface(0, [0.5, 0.25]);
-        assert_eq!(p.tangents, None);
+        assert_eq!(p.tangent, None);
         let p = p.on(ShapeId(0));
-        assert!(p.dp_du.is_finite() && p.dp_du.dot(p.normal) == 0.0);
+        assert!(p.shading.s.is_finite() && p.shading.s.dot(p.normal) == 0.0);
     }
 }

@@ -3,38 +3,26 @@
 use etendue_math::glam::Vec3;
 
 /// The point from which a ray leaves a surface: moved along the normal, to the side of `direction`,
-/// by more than the error of the computed position, and then rounded away from the surface.
+/// by more than the error of the computed position and of the sum itself.
 ///
 /// ```text
-/// d = |n.x| e.x + |n.y| e.y + |n.z| e.z
-/// p' = p ± d n,   each coordinate then a step of `f32` further in the direction of the shift
+/// d = Σ |nᵢ| (eᵢ + 2⁻²³ |pᵢ|),   p' = p ± d n
 /// ```
 ///
 /// - `position`: computed point, `error`: absolute bound on its error per axis (non-negative).
 /// - `normal`: unit geometric normal. - `direction`: where the ray goes, any length.
 ///
+/// Rounding `p'` moves it by at most `Σ |nᵢ| 2⁻²⁴ |p'ᵢ|` along the normal, about half of what the
+/// second term adds: the point stays beyond the error of `position`. A coordinate along which the
+/// normal vanishes stays the same.
+///
 /// # Source
-/// Pharr, Jakob, Humphreys, "Physically Based Rendering", 4th ed., section 6.8.6.
-#[inline]
+/// Pharr, Jakob, Humphreys, "Physically Based Rendering", 4th ed., section 6.8.6. There each
+/// coordinate is moved to the next float instead, by its bits, which takes three times as long.
+#[inline(always)]
 pub fn offset_point(position: Vec3, error: Vec3, normal: Vec3, direction: Vec3) -> Vec3 {
-    let distance = normal.abs().dot(error);
-    let shift = normal * distance.copysign(direction.dot(normal));
-    let moved = position + shift;
-    Vec3::new(away(moved.x, shift.x), away(moved.y, shift.y), away(moved.z, shift.z))
-}
-
-/// At least one float further in the direction of a shift; unchanged where there was none.
-///
-/// ```text
-/// x' = x + sign(shift) (2⁻²³ |x| + 2⁻¹²⁶)
-/// ```
-///
-/// The distance to the next float is at most `2⁻²³ |x|`, or `2⁻¹⁴⁹` near 0. Unlike counting the bits
-/// up or down, this takes no branch on two signs that are as good as random.
-#[inline]
-fn away(x: f32, shift: f32) -> f32 {
-    let step = (x.abs() * f32::EPSILON + f32::MIN_POSITIVE).copysign(shift);
-    if shift == 0.0 { x } else { x + step }
+    let distance = normal.abs().dot(error + position.abs() * f32::EPSILON);
+    position + normal * distance.copysign(direction.dot(normal))
 }
 
 #[cfg(test)]

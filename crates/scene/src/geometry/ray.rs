@@ -18,29 +18,31 @@ pub struct Ray {
 
 impl Ray {
     /// A ray without end.
+    #[inline(always)]
     pub fn new(origin: Vec3, direction: Vec3) -> Self {
         Self { origin, direction, t_max: f32::INFINITY }
     }
 
     /// The open segment between two points, with `t` from 0 to 1.
+    #[inline(always)]
     pub fn between(origin: Vec3, target: Vec3) -> Self {
         Self { origin, direction: target - origin, t_max: 1.0 }
     }
 
     /// The point at parameter `t`.
-    #[inline]
+    #[inline(always)]
     pub fn at(&self, t: f32) -> Vec3 {
         self.origin + self.direction * t
     }
 
     /// Finite origin, finite direction that is not zero, and a positive `t_max`.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn is_valid(&self) -> bool {
         // Zero times what is not finite is NaN, and a comparison with NaN is false: six tests in
         // one, and a NaN t_max is refused as well.
-        self.origin * 0.0 + self.direction * 0.0 == Vec3::ZERO
-            && self.direction != Vec3::ZERO
-            && self.t_max > 0.0
+        let zero = self.origin * 0.0 + self.direction * 0.0;
+        let size = self.direction.abs();
+        zero.x + zero.y + zero.z == 0.0 && size.x + size.y + size.z > 0.0 && self.t_max > 0.0
     }
 }
 

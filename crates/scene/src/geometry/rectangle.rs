@@ -28,7 +28,7 @@ impl Rectangle {
         if corners.iter().any(|c| !c.is_finite()) {
             return Err(ShapeError::OutOfRange);
         }
-        let halves = [0, 1].map(|half| Facet::of(&half_of(&corners, half)));
+        let halves = [0, 1].map(|half| Facet::of(half_of(&corners, half)));
         Ok(Self { corners, normal: transform.normal(Vec3::Z), halves })
     }
 
@@ -47,22 +47,22 @@ impl Rectangle {
         self.halves[0].area + self.halves[1].area
     }
 
-    /// One of the two triangles that rays are tested against, and its texture coordinates.
-    pub(crate) fn half(&self, half: u32) -> (Corners, [[f32; 2]; 3]) {
-        let uvs = match half {
-            0 => [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]],
-            _ => [[0.0, 0.0], [1.0, 1.0], [0.0, 1.0]],
-        };
-        (half_of(&self.corners, half), uvs)
+    /// One of the two triangles that rays are tested against.
+    pub(crate) fn half(&self, half: u32) -> &Facet {
+        &self.halves[usize::from(half != 0)]
     }
 
     pub(crate) fn bounds(&self) -> Aabb {
         Aabb::from_points(self.corners)
     }
 
+    #[inline(always)]
     pub(crate) fn surface(&self, half: u32, [b1, b2]: [f32; 2]) -> LocalSurface {
-        let (corners, [uv0, uv1, uv2]) = self.half(half);
-        let (position, error) = self.halves[usize::from(half != 0)].point(&corners, b1, b2);
+        let (position, error) = self.half(half).point([b1, b2]);
+        let [uv0, uv1, uv2] = match half {
+            0 => [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]],
+            _ => [[0.0, 0.0], [1.0, 1.0], [0.0, 1.0]],
+        };
         let b0 = 1.0 - b1 - b2;
         LocalSurface {
             position,
@@ -70,7 +70,7 @@ impl Rectangle {
             normal: self.normal,
             shading_normal: self.normal,
             uv: core::array::from_fn(|i| b0 * uv0[i] + b1 * uv1[i] + b2 * uv2[i]),
-            tangents: Some([self.corners[1] - self.corners[0], self.corners[3] - self.corners[0]]),
+            tangent: Some(self.corners[1] - self.corners[0]),
             primitive: 0,
         }
     }

@@ -26,7 +26,7 @@ impl ShapeSample {
     ///
     /// It stops short by the error of the position and by what rounding the direction does to a
     /// segment of this length: `2⁻²¹ |q − p|` per axis.
-    #[inline]
+    #[inline(always)]
     pub fn seen_from(&self, reference: Vec3) -> Vec3 {
         let direction = self.position - reference;
         let error = self.error + direction.abs() * (4.0 * f32::EPSILON);
@@ -42,7 +42,7 @@ impl ShapeSample {
 /// ```
 ///
 /// 0 where the surface is seen edge-on or from itself: no light passes there.
-#[inline]
+#[inline(always)]
 pub(crate) fn solid_angle_density(
     pdf_area: f32,
     reference: Vec3,

@@ -5,6 +5,7 @@ use core::ops::Range;
 
 use super::bvh::simd::{Backend, Kernel, Simd};
 use super::bvh::{Bvh, Found, Objects, PreparedRay, TriangleRef};
+use super::surface::LocalSurface;
 use super::{Aabb, GeometryBuilder, Ray, Shape, ShapeId, SurfacePoint, Transform, triangle};
 
 /// Shapes, groups and instances, ready for rays.
@@ -59,6 +60,17 @@ impl GeometryStatistics {
 struct Instance {
     group: u32,
     transform: Transform,
+}
+
+/// The point of any shape, in a group or not. Out of line, so that meshes do not pay for it.
+#[inline(never)]
+fn local_surface(shape: &Shape, instance: Option<&Instance>, ray: Ray, hit: Hit) -> LocalSurface {
+    match instance {
+        None => shape.surface(&ray, &hit),
+        Some(Instance { transform, .. }) => {
+            shape.surface(&transform.inverse_ray(&ray), &hit).transformed(transform)
+        }
+    }
 }
 
 /// One hierarchy: the world, or a group.
@@ -127,39 +139,58 @@ impl Geometry {
     /// The closest hit at `0 < t < t_max`.
     #[inline]
     pub fn intersect(&self, ray: &Ray) -> Option<Hit> {
+        self.backend.run(Closest { geometry: self, ray })
+    }
+
+    /// Whether anything is hit at `0 < t < t_max`.
+    #[inline]
+    pub fn occluded(&self, ray: &Ray) -> bool {
+        self.backend.run(Occluded { geometry: self, ray })
+    }
+
+    #[inline(always)]
+    pub(super) fn intersect_with<S: Simd>(&self, simd: S, ray: &Ray) -> Option<Hit> {
         if !ray.is_valid() {
             return None;
         }
-        let found = self.backend.run(Closest { geometry: self, ray });
+        let mut found = Found::nothing_before(ray.t_max);
+        // A copy field by field: objects are asked by calls, and a reference, or a copy that the
+        // compiler sees through, would keep the caller's ray in memory.
+        let objects = World { geometry: self, ray: &Ray { ..*ray } };
+        self.top.bvh.closest(simd, &PreparedRay::new(simd, ray), &objects, &mut found);
         (found.shape != u32::MAX).then_some(Hit {
             t: found.t,
-            uv: found.uv,
+            uv: found.uv(),
             shape: ShapeId(found.shape),
             primitive: found.primitive,
             instance: found.instance,
         })
     }
 
-    /// Whether anything is hit at `0 < t < t_max`.
-    #[inline]
-    pub fn occluded(&self, ray: &Ray) -> bool {
-        ray.is_valid() && self.backend.run(Occluded { geometry: self, ray })
+    #[inline(always)]
+    pub(super) fn occluded_with<S: Simd>(&self, simd: S, ray: &Ray) -> bool {
+        let objects = World { geometry: self, ray: &Ray { ..*ray } };
+        ray.is_valid()
+            && self.top.bvh.occluded(simd, &PreparedRay::new(simd, ray), &objects, ray.t_max)
     }
 
     /// What is at a hit that [`intersect`](Self::intersect) of this geometry has found for this ray.
     ///
     /// # Panics
     /// A hit of another geometry may name shapes and triangles that do not exist here.
-    #[inline]
+    #[inline(always)]
     pub fn surface_point(&self, ray: &Ray, hit: &Hit) -> SurfacePoint {
         let shape = &self.shapes[hit.shape.0 as usize];
-        match self.instances.get(hit.instance as usize) {
-            Some(Instance { transform, .. }) => {
-                shape.surface(&transform.inverse_ray(ray), hit).transformed(transform)
+        match (shape, self.instances.get(hit.instance as usize)) {
+            (Shape::Mesh(mesh), None) => mesh.surface(hit.primitive, hit.uv).on(hit.shape),
+            (Shape::Rectangle(rectangle), None) => {
+                rectangle.surface(hit.primitive, hit.uv).on(hit.shape)
             }
-            None => shape.surface(ray, hit),
+            // Only now made a point, so that those above need not be where this one is returned.
+            (shape, instance) => {
+                local_surface(shape, instance, Ray { ..*ray }, Hit { ..*hit }).on(hit.shape)
+            }
         }
-        .on(hit.shape)
     }
 
     /// Every shape, those of groups included, in the order in which they were added.
@@ -191,15 +222,11 @@ struct Closest<'a> {
 }
 
 impl Kernel for Closest<'_> {
-    type Output = Found;
+    type Output = Option<Hit>;
 
     #[inline(always)]
-    fn run<S: Simd>(self, simd: S) -> Found {
-        let Self { geometry, ray } = self;
-        let mut found = Found::nothing_before(ray.t_max);
-        let objects = World { geometry, ray };
-        geometry.top.bvh.closest(simd, &PreparedRay::new(simd, ray), &objects, &mut found);
-        found
+    fn run<S: Simd>(self, simd: S) -> Option<Hit> {
+        self.geometry.intersect_with(simd, self.ray)
     }
 }
 
@@ -214,9 +241,7 @@ impl Kernel for Occluded<'_> {
 
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) -> bool {
-        let Self { geometry, ray } = self;
-        let objects = World { geometry, ray };
-        geometry.top.bvh.occluded(simd, &PreparedRay::new(simd, ray), &objects, ray.t_max)
+        self.geometry.occluded_with(simd, self.ray)
     }
 }
 

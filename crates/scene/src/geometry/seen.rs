@@ -2,13 +2,14 @@
 
 use etendue_math::Vector3;
 use etendue_math::glam::{DVec3, Vec3};
+use etendue_sampling::warp;
 use etendue_sampling::warp::rectangle::Rectangle as Corner;
 use etendue_sampling::warp::seen_sphere::SeenSphere;
 use etendue_sampling::warp::spherical_rectangle::SphericalRectangle;
 use etendue_sampling::warp::spherical_triangle::SphericalTriangle;
 
 use super::sample::solid_angle_density;
-use super::{Shape, ShapeSample, SurfacePoint};
+use super::{Shape, ShapeSample, SurfacePoint, TriangleMesh};
 
 /// A primitive as a reference point sees it from near by: which map draws points on it.
 enum Seen {
@@ -37,18 +38,39 @@ impl Seen {
     }
 }
 
+impl TriangleMesh {
+    /// Whether a triangle is so small for its distance that its area is sampled; false for one that
+    /// does not exist.
+    #[inline(always)]
+    fn looks_small(&self, triangle: u32, reference: Vec3) -> bool {
+        let Some(facet) = self.facets().get(triangle as usize) else { return false };
+        let [a, b, c] = facet.corners;
+        looks_small(facet.longest_squared, &[a - reference, b - reference, c - reference])
+    }
+
+    /// [`Shape::sample_from`] for a triangle that looks small.
+    #[inline(always)]
+    fn sample_area_from(
+        &self,
+        triangle: u32,
+        reference: Vec3,
+        u: [f32; 2],
+    ) -> Option<(ShapeSample, f32)> {
+        let [_, b1, b2] = warp::triangle::from_square(u);
+        let sample = self.at(triangle, [b1, b2]);
+        let pdf = solid_angle_density(sample.pdf_area, reference, sample.position, sample.normal);
+        (pdf > 0.0).then_some((sample, pdf))
+    }
+}
+
 impl Shape {
     /// Whether points of a primitive are drawn uniformly in area, without a look at its solid angle.
-    #[inline]
+    #[inline(always)]
     fn is_sampled_by_area(&self, primitive: u32, reference: Vec3) -> bool {
         match self {
             // Points on the wall see the inside whether rounding has put them inside or outside.
             Self::Sphere(sphere) => sphere.faces_inward(),
-            Self::Mesh(mesh) => {
-                let [a, b, c] = mesh.corners(primitive);
-                let corners = [a - reference, b - reference, c - reference];
-                looks_small(mesh.facet(primitive).longest_squared, &corners)
-            }
+            Self::Mesh(mesh) => mesh.looks_small(primitive, reference),
             Self::Rectangle(rectangle) => {
                 let [a, b, c, d] = *rectangle.corners();
                 let longest = (b - a).length_squared().max((d - a).length_squared());
@@ -103,8 +125,27 @@ impl Shape {
     /// assert!((1.0 / pdf - 4.0 * std::f32::consts::PI / 6.0).abs() < 1e-5);
     /// # Ok::<(), etendue_scene::geometry::ShapeError>(())
     /// ```
-    #[inline]
+    #[inline(always)]
     pub fn sample_from(
+        &self,
+        primitive: u32,
+        reference: Vec3,
+        u: [f32; 2],
+    ) -> Option<(ShapeSample, f32)> {
+        // Taken apart by `?` and put together again: what is returned here is not where the longer
+        // way returns it, and need not be in memory.
+        Some(match self {
+            Self::Mesh(mesh) if mesh.looks_small(primitive, reference) => {
+                mesh.sample_area_from(primitive, reference, u)?
+            }
+            _ => self.sample_any_from(primitive, reference, u)?,
+        })
+    }
+
+    /// The same without a short way for small triangles, out of line: most lights are small triangles
+    /// from most places.
+    #[inline(never)]
+    fn sample_any_from(
         &self,
         primitive: u32,
         reference: Vec3,
@@ -122,9 +163,7 @@ impl Shape {
         (pdf > 0.0).then_some((sample, pdf))
     }
 
-    /// The same for a primitive that is not sampled by area. Kept out of line: it is long, and most
-    /// lights look small from most places.
-    #[inline(never)]
+    /// The same for a primitive that is not sampled by area.
     fn sample_seen(
         &self,
         primitive: u32,
@@ -176,7 +215,7 @@ impl Shape {
 /// In the Cornell box, where a third of all light samples lie between one and two sides away, the
 /// relative squared error is one or two percent larger than with twice the distance, and the time a
 /// tenth less.
-#[inline]
+#[inline(always)]
 fn looks_small<const N: usize>(longest_squared: f32, corners: &[Vec3; N]) -> bool {
     // Written so that NaN is not small.
     corners.iter().all(|c| longest_squared < c.length_squared())

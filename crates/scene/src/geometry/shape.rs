@@ -77,7 +77,7 @@ impl Shape {
     }
 
     /// How many primitives points can be drawn on: the triangles of a mesh, 1 otherwise.
-    #[inline]
+    #[inline(always)]
     pub fn primitive_count(&self) -> u32 {
         match self {
             Self::Mesh(mesh) => mesh.triangles().len() as u32,
@@ -86,7 +86,7 @@ impl Shape {
     }
 
     /// The area of a primitive; 0 for one that does not exist.
-    #[inline]
+    #[inline(always)]
     pub fn primitive_area(&self, primitive: u32) -> f32 {
         if primitive >= self.primitive_count() {
             return 0.0;
@@ -107,7 +107,7 @@ impl Shape {
 
     /// A point uniform over the area of a primitive, from two uniforms in `[0, 1)`; `None` for a
     /// primitive that does not exist or has no area.
-    #[inline]
+    #[inline(always)]
     pub fn sample_area(&self, primitive: u32, u: [f32; 2]) -> Option<ShapeSample> {
         if self.primitive_area(primitive) == 0.0 {
             return None;
@@ -147,13 +147,12 @@ impl Shape {
     pub(crate) fn triangle(&self, index: u32) -> Option<triangle::Corners> {
         match self {
             Self::Mesh(mesh) => Some(mesh.corners(index)),
-            Self::Rectangle(s) => Some(s.half(index).0),
+            Self::Rectangle(s) => Some(s.half(index).corners),
             _ => None,
         }
     }
 
     /// The point that a ray in the shape's own space has hit.
-    #[inline]
     pub(crate) fn surface(&self, ray: &Ray, hit: &Hit) -> LocalSurface {
         match self {
             Self::Mesh(s) => s.surface(hit.primitive, hit.uv),

@@ -20,10 +20,6 @@ pub struct SurfacePoint {
     pub shading: Frame<f32>,
     /// Texture coordinates.
     pub uv: [f32; 2],
-    /// Change of position with the first texture coordinate.
-    pub dp_du: Vec3,
-    /// Change of position with the second texture coordinate.
-    pub dp_dv: Vec3,
     /// The shape.
     pub shape: ShapeId,
     /// The primitive within the shape, for [`Shape::pdf_from`](super::Shape::pdf_from).
@@ -38,8 +34,8 @@ pub(crate) struct LocalSurface {
     pub(crate) normal: Vec3,
     pub(crate) shading_normal: Vec3,
     pub(crate) uv: [f32; 2],
-    /// `∂p/∂u` and `∂p/∂v`, where the shape has texture coordinates.
-    pub(crate) tangents: Option<[Vec3; 2]>,
+    /// `∂p/∂u`, where the shape has texture coordinates.
+    pub(crate) tangent: Option<Vec3>,
     pub(crate) primitive: u32,
 }
 
@@ -52,19 +48,16 @@ impl LocalSurface {
             error: t.round_trip_error(self.position, self.error, position),
             normal: t.normal(self.normal),
             shading_normal: t.normal(self.shading_normal),
-            tangents: self.tangents.map(|[du, dv]| [t.vector(du), t.vector(dv)]),
+            tangent: self.tangent.map(|tangent| t.vector(tangent)),
             ..self
         }
     }
 
-    #[inline]
+    #[inline(always)]
     pub(crate) fn on(self, shape: ShapeId) -> SurfacePoint {
-        let (shading, [dp_du, dp_dv]) = match self.tangents {
-            Some([du, dv]) => (Frame::from_normal_and_tangent(self.shading_normal, du), [du, dv]),
-            None => {
-                let frame = Frame::from_normal(self.shading_normal);
-                (frame, [frame.s, frame.t])
-            }
+        let shading = match self.tangent {
+            Some(tangent) => Frame::from_normal_and_tangent(self.shading_normal, tangent),
+            None => Frame::from_normal(self.shading_normal),
         };
         SurfacePoint {
             position: self.position,
@@ -72,8 +65,6 @@ impl LocalSurface {
             normal: self.normal,
             shading,
             uv: self.uv,
-            dp_du,
-            dp_dv,
             shape,
             primitive: self.primitive,
         }
@@ -82,24 +73,24 @@ impl LocalSurface {
 
 impl SurfacePoint {
     /// A ray without end that leaves the surface to the side of `direction`.
-    #[inline]
+    #[inline(always)]
     pub fn spawn(&self, direction: Vec3) -> Ray {
         Ray::new(self.offset_towards(direction), direction)
     }
 
     /// The segment from here to a point that lies on no surface, or was moved off it already.
-    #[inline]
+    #[inline(always)]
     pub fn spawn_to(&self, target: Vec3) -> Ray {
         Ray::between(self.offset_towards(target - self.position), target)
     }
 
     /// The segment from here to a sampled point of another surface, which it does not touch.
-    #[inline]
+    #[inline(always)]
     pub fn spawn_to_sample(&self, sample: &ShapeSample) -> Ray {
         self.spawn_to(sample.seen_from(self.position))
     }
 
-    #[inline]
+    #[inline(always)]
     fn offset_towards(&self, direction: Vec3) -> Vec3 {
         offset_point(self.position, self.error, self.normal, direction)
     }

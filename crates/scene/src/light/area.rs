@@ -21,7 +21,7 @@ pub struct AreaLight {
 impl AreaLight {
     /// A point on one primitive of the shape, as [`Shape::sample_from`] draws it; `None` where it
     /// shows its back.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn sample(
         self,
         shape: &Shape,
@@ -47,7 +47,7 @@ impl AreaLight {
     }
 
     /// Radiance that leaves a point of the shape towards `direction`; `None` on its back.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn emitted(
         self,
         textures: &Textures,

@@ -58,39 +58,71 @@ impl Model<'_> {
 }
 
 /// Implements [`Bsdf`] for an enumeration by handing every call to whichever variant is there.
+///
+/// The first variant's `eval_pdf` and `sample` are inlined, those of the others called: a diffuse
+/// surface takes a handful of instructions, and what surrounds it should not make room for the
+/// longer ones.
 macro_rules! forward_bsdf {
-    ($enum:ident: $($variant:ident),+) => {
+    ($enum:ident: $first:ident, $($variant:ident),+) => {
         impl Bsdf for $enum<'_> {
             type Color = Color;
 
             #[inline]
             fn lobes(&self) -> Lobes {
-                match self { $(Self::$variant(model) => model.lobes()),+ }
+                match self {
+                    Self::$first(model) => model.lobes(),
+                    $(Self::$variant(model) => model.lobes()),+
+                }
             }
 
-            #[inline]
-            fn eval(&self, wo: Vec3, wi: Vec3) -> Color {
-                match self { $(Self::$variant(model) => model.eval(wo, wi)),+ }
-            }
-
-            #[inline]
-            fn pdf(&self, wo: Vec3, wi: Vec3) -> f32 {
-                match self { $(Self::$variant(model) => model.pdf(wo, wi)),+ }
-            }
-
-            #[inline]
+            #[inline(always)]
             fn eval_pdf(&self, wo: Vec3, wi: Vec3) -> (Color, f32) {
-                match self { $(Self::$variant(model) => model.eval_pdf(wo, wi)),+ }
+                // Taken apart and put together again, here and by `?` below: what is returned from
+                // here is not where the calls return it, and need not be in memory.
+                let (f, pdf) = match self {
+                    Self::$first(model) => model.eval_pdf(wo, wi),
+                    others => others.eval_pdf_of_others(wo, wi),
+                };
+                (f, pdf)
             }
 
-            #[inline]
+            #[inline(always)]
             fn sample(&self, wo: Vec3, u_lobe: f32, u: [f32; 2]) -> Option<Sample<Color>> {
-                match self { $(Self::$variant(model) => model.sample(wo, u_lobe, u)),+ }
+                Some(match self {
+                    Self::$first(model) => model.sample(wo, u_lobe, u)?,
+                    others => others.sample_of_others(wo, u_lobe, u)?,
+                })
             }
 
             #[inline]
             fn albedo(&self, wo: Vec3) -> Option<Color> {
-                match self { $(Self::$variant(model) => model.albedo(wo)),+ }
+                match self {
+                    Self::$first(model) => model.albedo(wo),
+                    $(Self::$variant(model) => model.albedo(wo)),+
+                }
+            }
+        }
+
+        impl $enum<'_> {
+            #[inline(never)]
+            fn eval_pdf_of_others(&self, wo: Vec3, wi: Vec3) -> (Color, f32) {
+                match self {
+                    Self::$first(model) => model.eval_pdf(wo, wi),
+                    $(Self::$variant(model) => model.eval_pdf(wo, wi)),+
+                }
+            }
+
+            #[inline(never)]
+            fn sample_of_others(
+                &self,
+                wo: Vec3,
+                u_lobe: f32,
+                u: [f32; 2],
+            ) -> Option<Sample<Color>> {
+                match self {
+                    Self::$first(model) => model.sample(wo, u_lobe, u),
+                    $(Self::$variant(model) => model.sample(wo, u_lobe, u)),+
+                }
             }
         }
     };

@@ -55,7 +55,7 @@ impl Materials {
     /// side.
     ///
     /// A material that does not exist is [`Material::Null`].
-    #[inline]
+    #[inline(never)]
     pub fn prepare(
         &self,
         id: MaterialId,
@@ -79,7 +79,7 @@ impl Materials {
                 Side::Back => back,
             });
         }
-        PreparedBsdf::new(Placed { model: model(material, at), front: placed_on }, opacity)
+        PreparedBsdf::new(Placed::new(model(material, at), placed_on), opacity)
     }
 }
 

@@ -1,7 +1,6 @@
 //! What a surface does to light at one point.
 
 use etendue_brdf::{Bsdf, Lobes, Mask, Opacity, Sample};
-use etendue_math::Vector3;
 use etendue_math::glam::Vec3;
 
 use super::Model;
@@ -31,25 +30,41 @@ impl Side {
 /// other side, two-sided materials are black.
 #[derive(Clone, Copy, Debug)]
 pub struct PreparedBsdf<'a> {
-    inner: Mask<Placed<'a>>,
+    cover: Cover<'a>,
+    lobes: Lobes,
     chooses_lobe: bool,
+}
+
+/// How much of the surface is there.
+#[derive(Clone, Copy, Debug)]
+enum Cover<'a> {
+    Whole(Placed<'a>),
+    Partial(Mask<Placed<'a>>),
 }
 
 /// A model with its own front on one side of the surface.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Placed<'a> {
     pub(super) model: Model<'a>,
-    /// Where the model's front is.
-    pub(super) front: Side,
+    /// 1 where the model's front is that of the surface, −1 where it is its back.
+    up: f32,
 }
 
-impl Placed<'_> {
+impl<'a> Placed<'a> {
+    #[inline]
+    pub(super) fn new(model: Model<'a>, front: Side) -> Self {
+        let up = match front {
+            Side::Front => 1.0,
+            Side::Back => -1.0,
+        };
+        Self { model, up }
+    }
+
+    /// A direction as the model sees it, or the other way round.
     #[inline(always)]
     fn place(&self, w: Vec3) -> Vec3 {
-        match self.front {
-            Side::Front => w,
-            Side::Back => w.flip_z(),
-        }
+        // An exact product instead of a branch.
+        Vec3::new(w.x, w.y, w.z * self.up)
     }
 }
 
@@ -61,22 +76,12 @@ impl Bsdf for Placed<'_> {
         self.model.lobes()
     }
 
-    #[inline]
-    fn eval(&self, wo: Vec3, wi: Vec3) -> Color {
-        self.model.eval(self.place(wo), self.place(wi))
-    }
-
-    #[inline]
-    fn pdf(&self, wo: Vec3, wi: Vec3) -> f32 {
-        self.model.pdf(self.place(wo), self.place(wi))
-    }
-
-    #[inline]
+    #[inline(always)]
     fn eval_pdf(&self, wo: Vec3, wi: Vec3) -> (Color, f32) {
         self.model.eval_pdf(self.place(wo), self.place(wi))
     }
 
-    #[inline]
+    #[inline(always)]
     fn sample(&self, wo: Vec3, u_lobe: f32, u: [f32; 2]) -> Option<Sample<Color>> {
         let sample = self.model.sample(self.place(wo), u_lobe, u)?;
         Some(Sample { wi: self.place(sample.wi), ..sample })
@@ -90,14 +95,22 @@ impl Bsdf for Placed<'_> {
 
 impl<'a> PreparedBsdf<'a> {
     #[inline]
-    pub(super) fn new(inner: Placed<'a>, opacity: f32) -> Self {
-        let chooses_lobe = opacity < 1.0 || inner.model.chooses_lobe();
-        Self { inner: Mask::new(inner, Opacity::clamped(opacity)), chooses_lobe }
+    pub(super) fn new(placed: Placed<'a>, opacity: f32) -> Self {
+        if opacity < 1.0 {
+            let masked = Mask::new(placed, Opacity::clamped(opacity));
+            return Self {
+                lobes: masked.lobes(),
+                chooses_lobe: true,
+                cover: Cover::Partial(masked),
+            };
+        }
+        let chooses_lobe = placed.model.chooses_lobe();
+        Self { lobes: placed.lobes(), chooses_lobe, cover: Cover::Whole(placed) }
     }
 
     /// Whether [`sample`](Bsdf::sample) depends on `u_lobe`; where not, no number need be drawn for
     /// it.
-    #[inline]
+    #[inline(always)]
     pub fn chooses_lobe(&self) -> bool {
         self.chooses_lobe
     }
@@ -106,33 +119,48 @@ impl<'a> PreparedBsdf<'a> {
 impl Bsdf for PreparedBsdf<'_> {
     type Color = Color;
 
-    #[inline]
+    #[inline(always)]
     fn lobes(&self) -> Lobes {
-        self.inner.lobes()
+        self.lobes
     }
 
-    #[inline]
-    fn eval(&self, wo: Vec3, wi: Vec3) -> Color {
-        self.inner.eval(wo, wi)
-    }
-
-    #[inline]
-    fn pdf(&self, wo: Vec3, wi: Vec3) -> f32 {
-        self.inner.pdf(wo, wi)
-    }
-
-    #[inline]
+    #[inline(always)]
     fn eval_pdf(&self, wo: Vec3, wi: Vec3) -> (Color, f32) {
-        self.inner.eval_pdf(wo, wi)
+        match &self.cover {
+            Cover::Whole(placed) => placed.eval_pdf(wo, wi),
+            Cover::Partial(masked) => eval_pdf_of_partial(masked, wo, wi),
+        }
     }
 
-    #[inline]
+    #[inline(always)]
     fn sample(&self, wo: Vec3, u_lobe: f32, u: [f32; 2]) -> Option<Sample<Color>> {
-        self.inner.sample(wo, u_lobe, u)
+        Some(match &self.cover {
+            Cover::Whole(placed) => placed.sample(wo, u_lobe, u)?,
+            Cover::Partial(masked) => sample_partial(masked, wo, u_lobe, u)?,
+        })
     }
 
     #[inline]
     fn albedo(&self, wo: Vec3) -> Option<Color> {
-        self.inner.albedo(wo)
+        match &self.cover {
+            Cover::Whole(placed) => placed.albedo(wo),
+            Cover::Partial(masked) => masked.albedo(wo),
+        }
     }
+}
+
+/// Out of line, as the longer models are.
+#[inline(never)]
+fn eval_pdf_of_partial(masked: &Mask<Placed>, wo: Vec3, wi: Vec3) -> (Color, f32) {
+    masked.eval_pdf(wo, wi)
+}
+
+#[inline(never)]
+fn sample_partial(
+    masked: &Mask<Placed>,
+    wo: Vec3,
+    u_lobe: f32,
+    u: [f32; 2],
+) -> Option<Sample<Color>> {
+    masked.sample(wo, u_lobe, u)
 }

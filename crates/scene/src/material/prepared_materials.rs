@@ -35,7 +35,7 @@ impl<'a> PreparedMaterials<'a> {
     /// side.
     ///
     /// * `varying`: where the model is put if it had to be made for this place.
-    #[inline]
+    #[inline(always)]
     pub fn at<'b>(
         &'b self,
         id: MaterialId,

@@ -12,7 +12,7 @@ use crate::light::{AreaLight, Light, LightBounds, LightId, LightSample};
 
 impl Scene {
     /// The shape of an area light, which `new` has found to exist.
-    #[inline]
+    #[inline(always)]
     fn shape_of(&self, light: AreaLight) -> &Shape {
         &self.geometry.shapes()[light.shape.0 as usize]
     }
@@ -23,7 +23,7 @@ impl Scene {
     ///
     /// `None` where nothing arrives: the light shows its back, the drawn point is black, or there is
     /// no such light.
-    #[inline]
+    #[inline(always)]
     pub fn sample_light(
         &self,
         light: LightId,
@@ -31,12 +31,26 @@ impl Scene {
         reference: &SurfacePoint,
         u: [f32; 2],
     ) -> Option<LightSample> {
-        let from = reference.position;
-        match self.lights.get(light.0 as usize)? {
+        // `?` takes apart what the longer way returns, so that the result need not be in memory.
+        Some(match self.lights.get(light.0 as usize)? {
             Light::Area(area) => {
                 let shape = self.shape_of(*area);
-                area.sample(shape, &self.textures, primitive, from, u)
+                area.sample(shape, &self.textures, primitive, reference.position, u)?
             }
+            light => self.sample_without_surface(light, reference.position, u)?,
+        })
+    }
+
+    /// The same for a light that is no shape; out of line, so that area lights do not pay for it.
+    #[inline(never)]
+    fn sample_without_surface(
+        &self,
+        light: &Light,
+        from: Vec3,
+        u: [f32; 2],
+    ) -> Option<LightSample> {
+        match light {
+            Light::Area(_) => None,
             Light::Point(light) => light.sample(from),
             Light::Spot(light) => light.sample(from, &self.textures),
             Light::Directional(light) => light.sample(),
@@ -47,7 +61,7 @@ impl Scene {
 
     /// Density per steradian at `from` with which [`sample_light`](Self::sample_light) draws a point
     /// that a ray has hit, given the light and its primitive; 0 for a light that is no shape.
-    #[inline]
+    #[inline(always)]
     pub fn light_pdf_hit(&self, light: LightId, from: Vec3, hit: &SurfacePoint) -> f32 {
         match self.lights.get(light.0 as usize) {
             Some(Light::Area(area)) => self.shape_of(*area).pdf_from(from, hit),
@@ -67,7 +81,7 @@ impl Scene {
 
     /// The light that a surface is, and the radiance that leaves it towards `direction`; `None` for
     /// a surface that does not emit, and from behind.
-    #[inline]
+    #[inline(always)]
     pub fn emitted(&self, hit: &SurfacePoint, direction: Vec3) -> Option<(LightId, Color)> {
         let id = self.surfaces[hit.shape.0 as usize].light?;
         match self.lights.get(id.0 as usize)? {

@@ -93,16 +93,25 @@ impl Textures {
     /// The colour at texture coordinates `uv`: finite, not negative; black for an unknown `id`.
     ///
     /// Coordinates that are NaN or infinite give some colour of the texture.
-    #[inline]
+    #[inline(always)]
     pub fn color(&self, id: TextureId, uv: [f32; 2]) -> Color {
         match self.entries.get(id.0 as usize).map(|entry| &entry.texture) {
             Some(&Texture::Constant(color)) => color,
-            Some(Texture::Bitmap(bitmap)) => bitmap.color(uv),
-            Some(Texture::Checkerboard(board)) => {
+            Some(texture) => self.varying(texture, id, uv),
+            None => Color::black(),
+        }
+    }
+
+    /// The colour of a texture that is not constant. Out of line, so that constants do not pay for it.
+    #[inline(never)]
+    fn varying(&self, texture: &Texture, id: TextureId, uv: [f32; 2]) -> Color {
+        match texture {
+            Texture::Constant(color) => *color,
+            Texture::Bitmap(bitmap) => bitmap.color(uv),
+            Texture::Checkerboard(board) => {
                 let square = board.square(uv);
                 if square < id { self.color(square, uv) } else { Color::black() }
             }
-            None => Color::black(),
         }
     }
 

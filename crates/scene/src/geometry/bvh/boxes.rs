@@ -9,11 +9,26 @@ use crate::geometry::Ray;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct BoxRay<F> {
     origin: [F; 3],
-    /// Reciprocals of the direction, shrunk for where boxes begin, stretched for where they end.
-    to_near: [F; 3],
-    to_far: [F; 3],
+    /// Reciprocals of the direction.
+    inverse: [F; 3],
     /// For each axis, which of its two rows in [`Node::bounds`] the ray meets first.
-    near: [usize; 3],
+    near: [Row; 3],
+}
+
+/// A row of [`Node::bounds`] as an index that needs no check.
+#[derive(Clone, Copy, Debug)]
+enum Row {
+    Least,
+    Largest,
+}
+
+impl Row {
+    /// The one that a ray meets first along an axis, by the reciprocal of its direction: its sign, so
+    /// that −0 selects the rows that fit its −∞.
+    #[inline(always)]
+    fn first(inverse: f32) -> Self {
+        if inverse.is_sign_negative() { Self::Largest } else { Self::Least }
+    }
 }
 
 /// How much the interval in a box is widened at either end, `2 γ(9)` with γ in units of 2⁻²⁴.
@@ -28,18 +43,14 @@ pub(super) struct BoxRay<F> {
 const WIDEN: f32 = 18.0 * 0.5 * f32::EPSILON;
 
 impl<F: Copy> BoxRay<F> {
+    /// `inverse`: reciprocals of the ray's direction.
     #[inline(always)]
-    pub(super) fn new<S: Simd<F = F>>(simd: S, ray: &Ray) -> Self {
-        let [x, y, z] = ray.direction.to_array();
-        let (x, y, z) = (1.0 / x, 1.0 / y, 1.0 / z);
-        // The sign of the reciprocal, so that −0 selects the rows that fit its −∞.
-        let row = |inverse: f32| usize::from(inverse.is_sign_negative());
-        let (shrink, stretch) = (1.0 - WIDEN, 1.0 + WIDEN);
+    pub(super) fn new<S: Simd<F = F>>(simd: S, ray: &Ray, inverse: [f32; 3]) -> Self {
+        let [x, y, z] = inverse;
         Self {
             origin: [simd.splat(ray.origin.x), simd.splat(ray.origin.y), simd.splat(ray.origin.z)],
-            to_near: [simd.splat(x * shrink), simd.splat(y * shrink), simd.splat(z * shrink)],
-            to_far: [simd.splat(x * stretch), simd.splat(y * stretch), simd.splat(z * stretch)],
-            near: [row(x), row(y), row(z)],
+            inverse: [simd.splat(x), simd.splat(y), simd.splat(z)],
+            near: [Row::first(x), Row::first(y), Row::first(z)],
         }
     }
 }
@@ -47,7 +58,7 @@ impl<F: Copy> BoxRay<F> {
 /// Which boxes the ray meets before `t_max`, as a mask, and a lower bound on where it enters them.
 ///
 /// ```text
-/// t₀ = max(0, max over axes of (near − o) · (1 − w)/d),  t₁ = min(t_max, min of (far − o) · (1 + w)/d)
+/// t₀ = (1 − w) max(0, max over axes of (near − o)/d),  t₁ = min(t_max, (1 + w) min of (far − o)/d)
 /// met where t₀ ≤ t₁
 /// ```
 ///
@@ -61,13 +72,18 @@ pub(super) fn entered<S: Simd>(
     t_max: f32,
 ) -> (u32, [f32; LANES]) {
     let mut enter = simd.splat(0.0);
-    let mut leave = simd.splat(t_max);
+    let mut leave = simd.splat(f32::INFINITY);
     for axis in 0..3 {
-        let (near, far) = (ray.near[axis] & 1, (ray.near[axis] ^ 1) & 1);
-        let near = simd.sub(simd.load(&node.bounds[axis][near]), ray.origin[axis]);
-        let far = simd.sub(simd.load(&node.bounds[axis][far]), ray.origin[axis]);
-        enter = simd.max(simd.mul(near, ray.to_near[axis]), enter);
-        leave = simd.min(simd.mul(far, ray.to_far[axis]), leave);
+        let row = ray.near[axis] as usize;
+        let near = simd.sub(simd.load(&node.bounds[axis][row]), ray.origin[axis]);
+        let far = simd.sub(simd.load(&node.bounds[axis][1 - row]), ray.origin[axis]);
+        enter = simd.max(simd.mul(near, ray.inverse[axis]), enter);
+        leave = simd.min(simd.mul(far, ray.inverse[axis]), leave);
     }
+    // Once for all axes: a negative end of the interval, which stretching makes worse, is no hit
+    // either way.
+    let enter = simd.mul(enter, simd.splat(1.0 - WIDEN));
+    // Not where the ray ends: a segment to a light would reach the light's own box.
+    let leave = simd.min(simd.mul(leave, simd.splat(1.0 + WIDEN)), simd.splat(t_max));
     (simd.bits(simd.le(enter, leave)), simd.store(enter))
 }

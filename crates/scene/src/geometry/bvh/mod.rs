@@ -86,6 +86,11 @@ impl<F: Copy> PreparedRay<F> {
     /// For a ray that [is valid](Ray::is_valid).
     #[inline(always)]
     pub(super) fn new<S: Simd<F = F>>(simd: S, ray: &Ray) -> Self {
-        Self { boxes: BoxRay::new(simd, ray), triangles: TriangleRay::new(simd, ray) }
+        let [x, y, z] = ray.direction.to_array();
+        let inverse = [1.0 / x, 1.0 / y, 1.0 / z];
+        Self {
+            boxes: BoxRay::new(simd, ray, inverse),
+            triangles: TriangleRay::new(simd, ray, inverse),
+        }
     }
 }

@@ -2,14 +2,16 @@
 
 use super::binary::MAX_DEPTH;
 use super::node::{Child, Content, Node};
-use super::simd::{Kernel, Simd, Stack};
+use super::simd::{Kernel, Memory, Simd, Stack};
 use super::{Bvh, LANES, PreparedRay, boxes, triangles};
 
 /// The closest hit so far.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::geometry) struct Found {
     pub(in crate::geometry) t: f32,
-    pub(in crate::geometry) uv: [f32; 2],
+    /// Edge functions of the second and third corner, and the sum of all three.
+    pub(in crate::geometry) edges: [f32; 2],
+    pub(in crate::geometry) determinant: f32,
     pub(in crate::geometry) shape: u32,
     pub(in crate::geometry) primitive: u32,
     pub(in crate::geometry) instance: u32,
@@ -19,7 +21,20 @@ impl Found {
     /// No hit, with `t` as the limit for one; its shape is `u32::MAX`.
     #[inline(always)]
     pub(in crate::geometry) fn nothing_before(t: f32) -> Self {
-        Self { t, uv: [0.0; 2], shape: u32::MAX, primitive: 0, instance: u32::MAX }
+        Self {
+            t,
+            edges: [0.0; 2],
+            determinant: 1.0,
+            shape: u32::MAX,
+            primitive: 0,
+            instance: u32::MAX,
+        }
+    }
+
+    /// Barycentric weights of the second and third corner, divided once per ray.
+    #[inline(always)]
+    pub(in crate::geometry) fn uv(&self) -> [f32; 2] {
+        [self.edges[0] / self.determinant, self.edges[1] / self.determinant]
     }
 }
 
@@ -43,7 +58,7 @@ fn entry(distance: f32, child: Child) -> u64 {
 
 /// The next child that is entered at `t_max` or before.
 #[inline(always)]
-fn pop(stack: &mut Stack<u64, CAPACITY>, t_max: f32) -> Option<Child> {
+fn pop(stack: &mut Stack<'_, u64, CAPACITY>, t_max: f32) -> Option<Child> {
     while let Some(entry) = stack.pop() {
         if f32::from_bits((entry >> 32) as u32) <= t_max {
             return Some(Child::from_bits(entry as u32));
@@ -58,7 +73,7 @@ fn pop(stack: &mut Stack<u64, CAPACITY>, t_max: f32) -> Option<Child> {
 /// and what comes next is loaded while the distances are still on their way.
 #[inline(always)]
 fn push_all_but_nearest(
-    stack: &mut Stack<u64, CAPACITY>,
+    stack: &mut Stack<'_, u64, CAPACITY>,
     node: &Node,
     mask: u32,
     distances: &[f32; LANES],
@@ -82,7 +97,7 @@ fn push_all_but_nearest(
 
 /// Moves the last entry down into the descending ones above `bottom`.
 #[inline(always)]
-fn sift(stack: &mut Stack<u64, CAPACITY>, bottom: usize) {
+fn sift(stack: &mut Stack<'_, u64, CAPACITY>, bottom: usize) {
     let entries = &mut stack.as_mut_slice()[bottom..];
     let mut i = entries.len() - 1;
     while i > 0 && entries[i - 1] < entries[i] {
@@ -113,7 +128,8 @@ impl Bvh {
         objects: &O,
         found: &mut Found,
     ) {
-        let mut stack = Stack::<u64, CAPACITY>::new();
+        let mut memory = Memory::<u64, CAPACITY>::new();
+        let mut stack = Stack::new(&mut memory);
         let mut next = Some(Child::new(Content::Node(0)));
         while let Some(child) = next {
             match child.content() {
@@ -146,30 +162,41 @@ impl Bvh {
         objects: &O,
         t_max: f32,
     ) -> bool {
-        let mut stack = Stack::<Child, CAPACITY>::new();
-        let mut next = Some(Child::new(Content::Node(0)));
-        while let Some(child) = next {
-            let hit = match child.content() {
-                Content::Node(index) => {
-                    let node = &self.nodes[index as usize];
-                    let (mask, _) = boxes::entered(simd, node, &ray.boxes, t_max);
-                    // In any order: sorting costs more than it finds sooner.
-                    for lane in lanes(mask) {
-                        stack.push(node.children[lane]);
+        // Nodes left for one of their children, and which others are still to visit. In any order:
+        // sorting costs more than it finds sooner.
+        let mut memory = Memory::<(u32, u32), { MAX_DEPTH + 2 }>::new();
+        let mut stack = Stack::new(&mut memory);
+        let mut index = 0;
+        'nodes: loop {
+            let mut node = &self.nodes[index as usize];
+            let (mut mask, _) = boxes::entered(simd, node, &ray.boxes, t_max);
+            loop {
+                if mask == 0 {
+                    let Some(left) = stack.pop() else { return false };
+                    (index, mask) = left;
+                    node = &self.nodes[index as usize];
+                }
+                let lane = mask.trailing_zeros() as usize & (LANES - 1);
+                mask &= mask.wrapping_sub(1);
+                let hit = match node.children[lane].content() {
+                    Content::Node(child) => {
+                        if mask != 0 {
+                            stack.push((index, mask));
+                        }
+                        index = child;
+                        continue 'nodes;
                     }
-                    false
+                    Content::Block(block) => {
+                        let block = &self.blocks[block as usize];
+                        triangles::any(simd, block, &ray.triangles, t_max)
+                    }
+                    Content::Object(object) => simd.call(Occluded { objects, object, t_max }),
+                };
+                if hit {
+                    return true;
                 }
-                Content::Block(index) => {
-                    triangles::any(simd, &self.blocks[index as usize], &ray.triangles, t_max)
-                }
-                Content::Object(object) => simd.call(Occluded { objects, object, t_max }),
-            };
-            if hit {
-                return true;
             }
-            next = stack.pop();
         }
-        false
     }
 }
 

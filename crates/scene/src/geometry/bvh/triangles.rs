@@ -31,8 +31,9 @@ enum Axis {
 }
 
 impl<F: Copy> TriangleRay<F> {
+    /// `inverse`: reciprocals of the ray's direction.
     #[inline(always)]
-    pub(super) fn new<S: Simd<F = F>>(simd: S, ray: &Ray) -> Self {
+    pub(super) fn new<S: Simd<F = F>>(simd: S, ray: &Ray, inverse: [f32; 3]) -> Self {
         let (o, d) = (ray.origin.to_array(), ray.direction.to_array());
         let size = ray.direction.abs();
         let axes = if size.x >= size.y && size.x >= size.z {
@@ -47,7 +48,7 @@ impl<F: Copy> TriangleRay<F> {
             axes,
             origin: [simd.splat(o[x]), simd.splat(o[y]), simd.splat(o[z])],
             shear: [simd.splat(d[x] / d[z]), simd.splat(d[y] / d[z])],
-            inverse: 1.0 / d[z],
+            inverse: inverse[z],
         }
     }
 
@@ -156,8 +157,7 @@ pub(super) fn closest<S: Simd>(
         let determinant = simd.store(tested.determinant);
         for lane in lanes(tested.hit) {
             if t[lane] < found.t {
-                let uv = [v[lane] / determinant[lane], w[lane] / determinant[lane]];
-                *found = block.found(lane, t[lane], uv);
+                *found = block.found(lane, t[lane], [v[lane], w[lane]], determinant[lane]);
             }
         }
     }
@@ -167,7 +167,7 @@ pub(super) fn closest<S: Simd>(
             if let Some((t, uv)) = redo(&corners, lane, ray.inverse)
                 && t < found.t
             {
-                *found = block.found(lane, t, uv);
+                *found = block.found(lane, t, uv, 1.0);
             }
         }
     }

@@ -35,6 +35,7 @@ impl Avx2 {
 }
 
 // Not `fma`: nothing here may be fused, and a compiler that cannot fuse will not.
+#[inline]
 #[target_feature(enable = "avx2,bmi1,bmi2")]
 fn run<K: Kernel>(simd: Avx2, kernel: K) -> K::Output {
     kernel.run(simd)

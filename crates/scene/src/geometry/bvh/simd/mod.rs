@@ -13,7 +13,7 @@ mod stack;
 
 use super::LANES;
 
-pub(super) use stack::Stack;
+pub(super) use stack::{Memory, Stack};
 
 /// Operations on eight floats. A value of an implementing type is the proof that the processor has
 /// the instructions.

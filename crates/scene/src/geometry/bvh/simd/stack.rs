@@ -3,17 +3,28 @@
 
 use core::mem::MaybeUninit;
 
-/// Up to `N` entries.
-pub(in crate::geometry::bvh) struct Stack<T, const N: usize> {
+/// Up to `N` entries, in memory of its own: together with the length they would keep that in memory
+/// as well, and every push and pop would wait for the one before.
+pub(in crate::geometry::bvh) struct Stack<'m, T, const N: usize> {
     /// The first `length` are initialised.
-    entries: [MaybeUninit<T>; N],
+    entries: &'m mut [MaybeUninit<T>; N],
     length: usize,
 }
 
-impl<T: Copy, const N: usize> Stack<T, N> {
+/// Memory for `N` entries.
+pub(in crate::geometry::bvh) struct Memory<T, const N: usize>([MaybeUninit<T>; N]);
+
+impl<T: Copy, const N: usize> Memory<T, N> {
     #[inline(always)]
     pub(in crate::geometry::bvh) fn new() -> Self {
-        Self { entries: [const { MaybeUninit::uninit() }; N], length: 0 }
+        Self([const { MaybeUninit::uninit() }; N])
+    }
+}
+
+impl<'m, T: Copy, const N: usize> Stack<'m, T, N> {
+    #[inline(always)]
+    pub(in crate::geometry::bvh) fn new(memory: &'m mut Memory<T, N>) -> Self {
+        Self { entries: &mut memory.0, length: 0 }
     }
 
     #[inline(always)]
@@ -50,7 +61,8 @@ mod tests {
 
     #[test]
     fn what_was_pushed_last_is_popped_first() {
-        let mut stack = Stack::<u32, 3>::new();
+        let mut memory = Memory::<u32, 3>::new();
+        let mut stack = Stack::new(&mut memory);
         assert_eq!(stack.pop(), None);
         for entry in [1, 2, 3] {
             stack.push(entry);
