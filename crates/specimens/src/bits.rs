@@ -134,7 +134,7 @@ mod tests {
 
     #[test]
     fn every_name_is_reported_and_all_hashes_differ() {
-        let mut seen = std::collections::BTreeMap::new();
+        let mut seen = alloc::collections::BTreeMap::new();
         all::<f32>(BRIEF, &mut |hash| {
             assert_eq!(hash.count, BRIEF);
             assert!(seen.insert(hash.hash, hash.name).is_none(), "{hash}");

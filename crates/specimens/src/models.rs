@@ -185,7 +185,7 @@ fn scattering(p: &mut impl Parameters) -> InternalScattering {
 mod tests {
     use super::*;
     use etendue_brdf::registry::MODELS;
-    use std::vec::Vec;
+    use alloc::vec::Vec;
 
     #[test]
     fn every_registered_model_has_a_specimen() {
