@@ -184,8 +184,8 @@ fn scattering(p: &mut impl Parameters) -> InternalScattering {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use etendue_brdf::registry::MODELS;
     use alloc::vec::Vec;
+    use etendue_brdf::registry::MODELS;
 
     #[test]
     fn every_registered_model_has_a_specimen() {
