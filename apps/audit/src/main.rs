@@ -57,7 +57,7 @@ fn main() -> ExitCode {
     let arguments = Arguments::parse();
     // A panic is a defect of the audit or of a model: its message stands on the error output.
     panic::catch_unwind(|| execute(&arguments))
-        .unwrap_or_else(|_| Err(FAILED))
+        .unwrap_or(Err(FAILED))
         .map_or_else(ExitCode::from, |()| ExitCode::SUCCESS)
 }
 

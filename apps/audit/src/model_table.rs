@@ -32,11 +32,13 @@ fn laws(info: &ModelInfo) -> String {
     let reciprocity = match info.reciprocity {
         Reciprocity::Reciprocal => "reciprocal",
         Reciprocity::UpToSquaredIndex => "reciprocal up to η²",
+        Reciprocity::ReflectionOnly => "reciprocal in reflection only",
         Reciprocity::NonReciprocal { .. } => "**not reciprocal**",
     };
     let energy = match info.energy {
         Energy::Conserves => "albedo ≤ 1".to_owned(),
         Energy::Gains { maximum, .. } => format!("albedo ≤ {maximum}"),
+        Energy::OfData => "albedo as measured".to_owned(),
     };
     let albedo = match info.albedo {
         Albedo::ClosedForm => " in closed form",

@@ -31,23 +31,28 @@
 //! | [`DiffuseTransmitter`] | reflectance, transmittance | reciprocal; albedo ≤ 1 in closed form | cosine on the side chosen by mean colours | two Lambertian lobes |
 //! | [`Eon`] | reflectance, roughness, sampling | reciprocal; albedo ≤ 1 in closed form | cosine, or clipped linearly transformed cosine | Portsmouth, Kutz and Hill 2025 |
 //! | [`Eon`] | reflectance, roughness, sampling | reciprocal; albedo ≤ 1.000147 in closed form | cosine, or clipped linearly transformed cosine | Portsmouth, Kutz and Hill 2025 |
+//! | [`KullaContyConductor`] | eta, k, distribution, alpha, masking, specular_reflectance | reciprocal; albedo ≤ 1.004 | mixture of visible normals and cosine | Kulla and Conty 2017, with the square of F_avg |
 //! | [`Lambert`] | reflectance | reciprocal; albedo ≤ 1 in closed form | cosine | Lambert 1760 |
 //! | [`LayeredFresnel`] | r0, rd | **not reciprocal**; albedo ≤ 1.952381 in closed form | mirror or cosine, by mean albedos | Shirley et al. 1997, section 2 |
 //! | [`LayeredLinear`] | rd, rs | reciprocal; albedo ≤ 1 in closed form | mirror or cosine, by mean shares | Shirley et al. 1997, section 2 |
 //! | [`Mask`] | opacity, inner | reciprocal; albedo ≤ 1 | the inner one with probability opacity | Mitsuba, mask |
+//! | [`Measured`] | table, interpolation | reciprocal; albedo as measured | mixture of cosine and rings of half vectors | Matusik et al. 2003; Rusinkiewicz 1998 |
 //! | [`Null`] |  | reciprocal; albedo ≤ 1 in closed form | delta | index-matched limit of a dielectric |
 //! | [`OrenNayar`] | reflectance, sigma | reciprocal; albedo ≤ 1.0509 | cosine | Oren and Nayar 1994, eqs. 27 to 29 |
 //! | [`OrenNayarFujii`] | reflectance, roughness | reciprocal; albedo ≤ 1 in closed form | cosine | Fujii 2012 |
 //! | [`OrenNayarQualitative`] | reflectance, sigma | reciprocal; albedo ≤ 1.0152 | cosine | Oren and Nayar 1994, eq. 30 |
 //! | [`Phong`] | kd, ks, exponent | reciprocal; albedo ≤ 1 in closed form | cosine, or the lobe, by mean colours | Lafortune and Willems 1994 |
 //! | [`Plastic`] | eta, reflectance, specular_reflectance, scattering, internal_reflectance | reciprocal; albedo ≤ 1 in closed form | mirror or cosine, by Fresnel and mean colours | Mitsuba, plastic; Wolff 1994 |
-//! | [`RoughConductor`] | eta, k, distribution, alpha_x, alpha_y, masking, specular_reflectance | reciprocal; albedo ≤ 1 | visible normals | Walter et al. 2007; Heitz 2014, 2018; Dupuy and Benyoub 2023 |
+//! | [`Principled`] | base_color, roughness, anisotropic, metallic, spec_trans, eta, spec_tint, sheen, sheen_tint, flatness, clearcoat, clearcoat_gloss, diffuse_reflectance_sampling_rate, main_specular_sampling_rate, clearcoat_sampling_rate | reciprocal up to η²; albedo ≤ 2.86 | mixture of cosine, clear coat's facets and visible normals | Burley 2012, 2015; Mitsuba 3, principled |
+//! | [`PrincipledThin`] | base_color, roughness, anisotropic, spec_trans, eta, spec_tint, sheen, sheen_tint, flatness, diff_trans, specular_reflectance_sampling_rate, specular_transmittance_sampling_rate, diffuse_reflectance_sampling_rate, diffuse_transmittance_sampling_rate | reciprocal in reflection only; albedo ≤ 1.65 | mixture of visible normals and cosine on either side | Burley 2015; Mitsuba 3, principledthin |
+//! | [`RoughConductor`] | eta, k, distribution, alpha_x, alpha_y, masking, specular_reflectance | reciprocal; albedo ≤ 1 | visible normals; bounded ones or all by choice | Walter et al. 2007; Heitz 2014, 2018; Dupuy and Benyoub 2023; Eto and Tokuyoshi 2023 |
 //! | [`RoughCoupled`] | r0, rm, distribution, alpha_x, alpha_y, masking | reciprocal; albedo ≤ 1.017 | mixture of visible normals and cosine | Shirley et al. 1997, section 3; Walter et al. 2007 |
 //! | [`RoughDielectric`] | eta, distribution, alpha_x, alpha_y, masking, specular_reflectance, specular_transmittance | reciprocal up to η²; albedo ≤ 1 | visible normals, reflection with probability F | Walter et al. 2007; Heitz and d'Eon 2014 |
 //! | [`RoughPlastic`] | eta, distribution, alpha, masking, reflectance, specular_reflectance, scattering, internal_reflectance | reciprocal; albedo ≤ 1 | mixture of visible normals and cosine | Mitsuba, roughplastic |
 //! | [`SmoothConductor`] | eta, k, specular_reflectance | reciprocal; albedo ≤ 1 in closed form | delta | Born and Wolf, section 14.2 |
 //! | [`SmoothDielectric`] | eta, specular_reflectance, specular_transmittance | reciprocal up to η²; albedo ≤ 1 in closed form | delta, reflection with probability F | Born and Wolf, section 1.5 |
 //! | [`ThinDielectric`] | eta, specular_reflectance, specular_transmittance | reciprocal; albedo ≤ 1 in closed form | delta, reflection with probability 2F/(1 + F) | Mitsuba, thindielectric |
+//! | [`TurquinConductor`] | eta, k, distribution, alpha, masking, specular_reflectance | **not reciprocal**; albedo ≤ 1.005 | visible normals | Turquin 2019 |
 //! | [`TwoSided`] | front, back | reciprocal; albedo ≤ 1 | that of the side | Mitsuba, twosided |
 //! <!-- end models -->
 //!
@@ -106,11 +111,13 @@ pub mod fresnel;
 #[cfg(test)]
 mod laws;
 mod layered;
+mod measured;
 pub mod microfacet;
 #[cfg(feature = "alloc")]
 pub mod named;
 mod param;
 mod phong;
+mod principled;
 pub mod quadrature;
 pub mod radiometry;
 pub mod registry;
@@ -129,6 +136,7 @@ pub use layered::{
     LayeredLinear, MirrorOverMatte, Plastic, PlasticInterface, RoughCoupled, RoughPlastic,
     StochasticLayers, TransmittanceTable,
 };
+pub use measured::{Interpolation, Measured, MerlError, MerlTable, tabulate};
 pub use microfacet::{BeckmannLambda, Distribution, Masking, Microfacets};
 pub use param::{
     Alpha, ComplexIor, Exponent, Ior, Opacity, OpticalDepth, ParameterError, Reflectance,
@@ -138,6 +146,7 @@ pub use phong::{
     AshikhminShirley, AshikhminShirleyDiffuse, AshikhminShirleySampling, AshikhminShirleySpecular,
     Phong, PhongHalfVectors,
 };
+pub use principled::{Principled, PrincipledParameters, PrincipledThin, PrincipledThinParameters};
 pub use rough::{
     Conductor, Dielectric, KullaContyConductor, RoughConductor, RoughDielectric, TurquinConductor,
 };

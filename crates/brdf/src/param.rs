@@ -25,7 +25,7 @@ impl fmt::Display for ParameterError {
 impl Error for ParameterError {}
 
 /// `x` when it lies in `[low, high]`; NaN does not.
-fn within<T: Real>(
+pub(crate) fn within<T: Real>(
     parameter: &'static str,
     x: T,
     [low, high]: [f64; 2],

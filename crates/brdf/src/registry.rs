@@ -1,6 +1,6 @@
 //! The list of all models: what they take, promise and rest on.
 
-use crate::{Lobes, adapter, diffuse, layered, phong, rough, smooth};
+use crate::{Lobes, adapter, diffuse, layered, measured, phong, principled, rough, smooth};
 
 /// Whether exchanging the two directions changes a model's value.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -9,6 +9,8 @@ pub enum Reciprocity {
     Reciprocal,
     /// Reflection is reciprocal; refraction up to the squared index, `f/η²` being symmetric.
     UpToSquaredIndex,
+    /// Reflection is reciprocal; what goes through is not, by the model's own definition.
+    ReflectionOnly,
     /// Not symmetric, by the model's own definition.
     NonReciprocal {
         /// `|f(a, b) − f(b, a)| / max(f(a, b), f(b, a))` for a the normal and b at cos θ = 0.1, where it is the same for
@@ -30,6 +32,8 @@ pub enum Energy {
         /// The parameters and the angle it belongs to.
         at: &'static str,
     },
+    /// Whatever the data say.
+    OfData,
 }
 
 /// Where a model's directional albedo comes from.
@@ -108,6 +112,18 @@ pub(crate) mod parameter {
     pub(crate) const RS: ParameterInfo = named("rs", "each channel in [0, 1]");
     pub(crate) const RD: ParameterInfo = named("rd", "each channel in [0, 1]");
     pub(crate) const SAMPLING: ParameterInfo = named("sampling", "see the type");
+    pub(crate) const BASE_COLOR: ParameterInfo = named("base_color", "each channel in [0, 1]");
+    pub(crate) const ANISOTROPIC: ParameterInfo = named("anisotropic", "in [0, 1]");
+    pub(crate) const SPEC_TRANS: ParameterInfo = named("spec_trans", "in [0, 1]");
+    pub(crate) const SPEC_TINT: ParameterInfo = named("spec_tint", "in [0, 1]");
+    pub(crate) const SHEEN: ParameterInfo = named("sheen", "in [0, 1]");
+    pub(crate) const SHEEN_TINT: ParameterInfo = named("sheen_tint", "in [0, 1]");
+    pub(crate) const FLATNESS: ParameterInfo = named("flatness", "in [0, 1]");
+
+    /// The rate at which a lobe is sampled.
+    pub(crate) const fn sampling_rate(name: &'static str) -> ParameterInfo {
+        named(name, "in [0, 1e6]")
+    }
 }
 
 /// Every type that implements [`Bsdf`](crate::Bsdf), in alphabetical order of the names; each
@@ -132,12 +148,15 @@ pub const MODELS: &[ModelInfo] = &[
     layered::layered_fresnel::INFO,
     layered::layered_linear::INFO,
     adapter::mask::INFO,
+    measured::merl::INFO,
     smooth::null::INFO,
     diffuse::oren_nayar::INFO,
     diffuse::oren_nayar_fujii::INFO,
     diffuse::oren_nayar_qualitative::INFO,
     phong::modified_phong::INFO,
     layered::plastic::INFO,
+    principled::solid::INFO,
+    principled::thin::INFO,
     rough::rough_conductor::INFO,
     layered::rough_coupled::INFO,
     rough::rough_dielectric::INFO,

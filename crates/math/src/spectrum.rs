@@ -63,6 +63,8 @@ pub trait Spectrum:
         (1..Self::CHANNELS).fold(self.channel(0), |m, i| m + self.channel(i))
             / Self::Real::lit(Self::CHANNELS as f64)
     }
+    /// How bright the colour is: the number itself, or the relative luminance Y of [`Rgb`].
+    fn luminance(self) -> Self::Real;
     /// All channels are exactly 0.
     #[inline(always)]
     fn is_black(self) -> bool {
@@ -97,6 +99,10 @@ macro_rules! scalar_spectrum {
             fn zip(self, other: Self, mut f: impl FnMut($float, $float) -> $float) -> Self {
                 f(self, other)
             }
+            #[inline(always)]
+            fn luminance(self) -> $float {
+                self
+            }
         }
     };
 }
@@ -127,5 +133,9 @@ impl<T: Real> Spectrum for Rgb<T> {
     #[inline(always)]
     fn zip(self, other: Self, mut f: impl FnMut(T, T) -> T) -> Self {
         Self { r: f(self.r, other.r), g: f(self.g, other.g), b: f(self.b, other.b) }
+    }
+    #[inline(always)]
+    fn luminance(self) -> T {
+        Self::luminance(self)
     }
 }

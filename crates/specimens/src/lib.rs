@@ -16,6 +16,9 @@ extern crate alloc;
 #[cfg(test)]
 extern crate std;
 
+#[cfg(test)]
+extern crate alloc;
+
 pub mod bits;
 pub mod functions;
 mod inputs;

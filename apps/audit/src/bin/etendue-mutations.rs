@@ -4,12 +4,13 @@
 //! Exit codes: 0 every bug was found, 1 one was not, 2 usage, 4 the copy could not be made or built, or
 //! the document could not be written.
 
+use core::time::Duration;
 use std::fs;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode, Stdio};
 use std::thread;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use clap::Parser;
 use etendue_audit::document::{row, with_part};

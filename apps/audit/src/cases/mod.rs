@@ -5,8 +5,10 @@
 mod adapter;
 mod diffuse;
 mod layered;
+mod measured;
 mod parameters;
 mod phong;
+mod principled;
 mod rough;
 mod smooth;
 mod textbook;
@@ -73,6 +75,9 @@ pub fn models() -> Vec<ModelCases> {
         of("coupled", layered::coupled, layered::coupled),
         of("rough-coupled", layered::rough_coupled, layered::rough_coupled),
         of("blend", adapter::blend, adapter::blend),
+        of("principled", principled::principled, principled::principled),
+        of("principled-thin", principled::principled_thin, principled::principled_thin),
+        of("measured", measured::measured, measured::measured),
         of("mask", adapter::mask, adapter::mask),
         of("two-sided", adapter::two_sided, adapter::two_sided),
     ]

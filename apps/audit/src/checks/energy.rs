@@ -32,6 +32,7 @@ pub(super) fn check<T: Scalar>(subject: &Subject<T>, context: &Context) -> Outco
     let limit = match subject.laws.energy {
         Energy::Conserves => 1.0,
         Energy::Gains { maximum, .. } => maximum,
+        Energy::OfData => return Outcome::NotApplicable("energy is that of the data"),
     };
     let mut worst = Worst::default();
     for wo in viewers::<T>(context.budget.viewers) {

@@ -62,8 +62,8 @@ pub(super) const MUTATIONS: &[Mutation] = &[
     Mutation {
         fault: "published f1 below 0: lost clamp",
         file: "crates/brdf/src/diffuse/oren_nayar.rs",
-        find: "(rho * C::Real::FRAC_1_PI * (direct + rho * twice)).max(C::Real::ZERO)",
-        replace: "rho * C::Real::FRAC_1_PI * (direct + rho * twice)",
+        find: "(rho * C::Real::FRAC_1_PI * (direct + rho * twice))\n                .max(C::Real::ZERO)",
+        replace: "(rho * C::Real::FRAC_1_PI * (direct + rho * twice))",
         filters: &["oren-nayar"],
     },
     Mutation {

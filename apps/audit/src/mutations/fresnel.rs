@@ -69,8 +69,8 @@ pub(super) const MUTATIONS: &[Mutation] = &[
     Mutation {
         fault: "a − c where it cancels: naive form",
         file: "crates/brdf/src/fresnel/conductor.rs",
-        find: "let difference = if b < T::HALF && sum > T::ZERO { (d + b2) / sum } else { a - c };",
-        replace: "let difference = a - c;",
+        find: "let difference = if b < T::HALF { d + b2 } else { (a - c) * sum };",
+        replace: "let difference = (a - c) * sum;",
         filters: &["conductor"],
     },
     Mutation {

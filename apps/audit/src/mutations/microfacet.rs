@@ -90,8 +90,8 @@ pub(super) const MUTATIONS: &[Mutation] = &[
     Mutation {
         fault: "weight of a visible normal without the cosine",
         file: "crates/brdf/src/microfacet/smith.rs",
-        find: "T::lit(4.0) * wi.z().abs() * self.projected_area(wo) * self.visibility(wo, wi)",
-        replace: "T::lit(4.0) * self.projected_area(wo) * self.visibility(wo, wi)",
+        find: "T::lit(4.0) * wi.z().abs() * area * self.visibility(wo, wi)",
+        replace: "T::lit(4.0) * area * self.visibility(wo, wi)",
         filters: &["rough-conductor"],
     },
 ];

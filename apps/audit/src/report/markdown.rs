@@ -133,7 +133,7 @@ fn gains(report: &Report) -> String {
     }
     let gaining = MODELS.iter().filter_map(|info| match info.energy {
         Energy::Gains { maximum, at } => Some(format!("`{}` up to {maximum} ({at})", info.name)),
-        Energy::Conserves => None,
+        Energy::Conserves | Energy::OfData => None,
     });
     let _ = write!(text, "\nModels that gain: {}.", gaining.collect::<Vec<_>>().join("; "));
     text

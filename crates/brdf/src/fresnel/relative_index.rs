@@ -154,7 +154,7 @@ impl<T: Real> RelativeIndex<T> {
 
     /// Transmittance 1 − F; see [`dielectric_transmittance`](super::dielectric_transmittance).
     #[inline(always)]
-    pub(super) fn transmittance(self, c: T) -> T {
+    pub(crate) fn transmittance(self, c: T) -> T {
         if self.is_matched() {
             return T::ONE;
         }

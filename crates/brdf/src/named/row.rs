@@ -81,7 +81,7 @@ pub enum Answer<T: Real> {
 }
 
 /// Models of a sheet, whose two sides are the same medium: their albedo is what they reflect.
-const SHEETS: &[&str] = &["diffuse-transmitter"];
+const SHEETS: &[&str] = &["diffuse-transmitter", "principled-thin"];
 
 /// Models of a mirror and a cosine-sampled matte term. With what probability the latter is chosen is a matter of the
 /// sampler, and 0 where it is black; the density within it is a matter of the model.

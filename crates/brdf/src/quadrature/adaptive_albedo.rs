@@ -141,12 +141,20 @@ impl<T: Real> Frame<T> {
 const POINTS: usize = 10;
 /// Bisections in a row: 40 bring the panel at a square root's end below 1e-16 of the integral.
 const DEPTH: u32 = 40;
-/// Samples that place the outer panels.
+/// Samples that place the outer panels, and how many of their quantiles are ends of panels.
 const PILOTS: usize = 64;
-/// Every fourth of them, sorted, begins a panel.
-const STRIDE: usize = 4;
+const QUANTILES: usize = 9;
+/// Panels beyond the outermost samples, each four times as wide as the one before: however narrow a lobe is, its
+/// tails lie in panels of their own width.
+const MARGINS: usize = 12;
+/// Places where the integrand has corners: ends, horizon, polar angle of the viewer.
+const CORNERS: usize = 5;
+const ENDS: usize = QUANTILES + 2 * MARGINS + CORNERS;
 /// Steps by which inner panels narrow, each to a quarter, towards the middle and the ends of the azimuths.
 const GRADES: u32 = 8;
+
+/// Pieces of the widest inner panels.
+const PIECES: u32 = 8;
 
 struct Integral<'a, T: Real, B: ?Sized> {
     model: &'a B,
@@ -192,9 +200,15 @@ impl<T: Real + Spectrum<Real = T>, B: Bsdf<Color = T> + ?Sized> Integral<'_, T, 
         };
         let mut sum = T::ZERO;
         for i in 0..2 * GRADES {
-            let (near, far) = (half * offset(i), half * offset(i + 1));
-            sum += rule.integrate([middle + near, middle + far], tolerance, &mut f);
-            sum += rule.integrate([middle - far, middle - near], tolerance, &mut f);
+            // The wide ones in pieces, for lobes that an anisotropic surface turns out of the plane.
+            let pieces = if offset(i + 1) - offset(i) > T::lit(0.2) { PIECES } else { 1 };
+            let step = half * (offset(i + 1) - offset(i)) / T::lit(f64::from(pieces));
+            for j in 0..pieces {
+                let near = half * offset(i) + step * T::lit(f64::from(j));
+                let far = near + step;
+                sum += rule.integrate([middle + near, middle + far], tolerance, &mut f);
+                sum += rule.integrate([middle - far, middle - near], tolerance, &mut f);
+            }
         }
         sum * polar.sin_cos().0
     }
@@ -211,26 +225,45 @@ impl<T: Real + Spectrum<Real = T>, B: Bsdf<Color = T> + ?Sized> Integral<'_, T, 
         f * wi.z().abs()
     }
 
-    /// Where outer panels meet: the ends, where the horizon is touched, the polar angle of `wo`, and where samples lie.
-    fn panel_ends(&self, side: Side) -> [T; PILOTS / STRIDE + 5] {
+    /// Where outer panels meet, in order.
+    fn panel_ends(&self, side: Side) -> [T; ENDS] {
         let right_angle = T::HALF * T::PI;
         let tilt = self.frame.sin.atan2(self.frame.cos);
         let last = if self.frame.axis == self.frame.wo { T::PI } else { right_angle };
-        let mut pilots = [T::ZERO; PILOTS];
-        for (i, pilot) in pilots.iter_mut().enumerate() {
-            *pilot = self.pilot(i, side).unwrap_or(T::ZERO).min(last);
-        }
-        sort(&mut pilots);
-        let fixed = [
+        let corners: [T; CORNERS] = [
             T::ZERO,
-            self.frame.polar(self.frame.wo).min(last),
-            (right_angle - tilt).min(last),
-            (right_angle + tilt).min(last),
+            self.frame.polar(self.frame.wo),
+            right_angle - tilt,
+            right_angle + tilt,
             last,
         ];
-        let mut ends = [T::ZERO; PILOTS / STRIDE + 5];
+        let mut pilots = [T::ZERO; PILOTS];
+        let mut count = 0;
+        for polar in (0..PILOTS).filter_map(|i| self.pilot(i, side)) {
+            pilots[count] = polar;
+            count += 1;
+        }
+        let pilots = &mut pilots[..count];
+        sort(pilots);
+        let (low, high) =
+            (pilots.first().map_or(T::ZERO, |&x| x), pilots.last().map_or(last, |&x| x));
+        // A spread of 0 (one sample, a needle) must not end the margins at once.
+        let spread = (T::lit(0.25) * (high - low)).max(T::lit(1e-6));
+        let mut ends = [T::ZERO; ENDS];
         for (i, end) in ends.iter_mut().enumerate() {
-            *end = fixed.get(i).copied().unwrap_or_else(|| pilots[STRIDE * (i - fixed.len())]);
+            let at = match i {
+                i if i < CORNERS => corners[i],
+                i if i < CORNERS + QUANTILES => {
+                    let rank = (i - CORNERS) * count.saturating_sub(1) / (QUANTILES - 1);
+                    pilots.get(rank).map_or(T::ZERO, |&x| x)
+                }
+                i => {
+                    let step = i - CORNERS - QUANTILES;
+                    let reach = spread * T::lit(4.0).powi((step / 2) as u32);
+                    if step.is_multiple_of(2) { low - reach } else { high + reach }
+                }
+            };
+            *end = at.max(T::ZERO).min(last);
         }
         sort(&mut ends);
         ends

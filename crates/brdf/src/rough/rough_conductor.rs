@@ -141,8 +141,9 @@ impl<C: Spectrum, S: NormalSampling<C::Real>> Bsdf for RoughConductor<C, S> {
         if !both_above(wo, wi) {
             return C::Real::ZERO;
         }
-        half_vector(wo, wi)
-            .map_or(C::Real::ZERO, |(h, _)| reflection_pdf(&self.facets, wo, self.facets.ndf(h)))
+        half_vector(wo, wi).map_or(C::Real::ZERO, |(h, cos)| {
+            density(self.facets.ndf(h), S::area(&self.facets, wo, h, cos))
+        })
     }
 
     #[inline]

@@ -100,29 +100,33 @@ impl<C: Spectrum> RoughDielectric<C> {
         let lobe = (f * d * self.facets.visibility(wo, wi)).min(C::Real::MAX);
         (self.specular_reflectance.scale(lobe), f * reflection_pdf(&self.facets, wo, d))
     }
+}
 
-    #[inline]
-    fn refraction(
-        &self,
-        wo: Vec3<C::Real>,
-        wi: Vec3<C::Real>,
-        index: RelativeIndex<C::Real>,
-    ) -> (C, C::Real) {
-        let nothing = (C::black(), C::Real::ZERO);
-        let (l, eta) = (index.half_sum(wo, wi), index.eta());
-        let squared = l.length_squared();
-        let Some(h) = l.try_normalize() else { return nothing };
-        let h = if h.z() < C::Real::ZERO { -h } else { h };
-        let (cos_o, cos_i) = (wo.dot(h), -wi.dot(h));
-        if !(cos_o > C::Real::ZERO && cos_i > C::Real::ZERO) {
-            return nothing; // a facet cannot be seen from behind
-        }
-        let t = index.transmittance_of_pair(cos_o, eta * cos_i);
-        let d = t * self.facets.ndf(h) * (cos_i / squared) * cos_o;
-        let lobe = C::Real::lit(4.0) * d * self.facets.visibility(wo, wi);
-        let pdf = d * eta * eta / self.facets.projected_area(wo);
-        (self.specular_transmittance.scale(lobe.min(C::Real::MAX)), pdf.min(C::Real::MAX))
+/// Refraction through facets: `T 4 |wo·h| |wi·h| D V / |l|²` and `T D |wo·h| / σ(wo) · η² |wi·h| / |l|²`,
+/// the value and the density it has where the facet refracts with its probability T.
+///
+/// `wo` above, `wi` below the surface; `index` as the side of `wo` sees it.
+#[inline]
+pub(crate) fn refraction_lobe<T: Real>(
+    facets: &Microfacets<T>,
+    index: RelativeIndex<T>,
+    wo: Vec3<T>,
+    wi: Vec3<T>,
+) -> (T, T) {
+    let nothing = (T::ZERO, T::ZERO);
+    let (l, eta) = (index.half_sum(wo, wi), index.eta());
+    let squared = l.length_squared();
+    let Some(h) = l.try_normalize() else { return nothing };
+    let h = if h.z() < T::ZERO { -h } else { h };
+    let (cos_o, cos_i) = (wo.dot(h), -wi.dot(h));
+    if !(cos_o > T::ZERO && cos_i > T::ZERO) {
+        return nothing; // a facet cannot be seen from behind
     }
+    let t = index.transmittance_of_pair(cos_o, eta * cos_i);
+    let d = t * facets.ndf(h) * (cos_i / squared) * cos_o;
+    let lobe = T::lit(4.0) * d * facets.visibility(wo, wi);
+    let pdf = d * eta * eta / facets.projected_area(wo);
+    (lobe.min(T::MAX), pdf.min(T::MAX))
 }
 
 impl<C: Spectrum> Bsdf for RoughDielectric<C> {
@@ -139,7 +143,8 @@ impl<C: Spectrum> Bsdf for RoughDielectric<C> {
         if above(wo) && above(wi) {
             self.reflection(wo, wi, index)
         } else if above(wo) && above(-wi) {
-            self.refraction(wo, wi, index)
+            let (lobe, pdf) = refraction_lobe(&self.facets, index, wo, wi);
+            (self.specular_transmittance.scale(lobe), pdf)
         } else {
             (C::black(), C::Real::ZERO)
         }

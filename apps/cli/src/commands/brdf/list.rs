@@ -61,6 +61,7 @@ fn reciprocity(reciprocity: Reciprocity) -> String {
     match reciprocity {
         Reciprocity::Reciprocal => "reciprocal".into(),
         Reciprocity::UpToSquaredIndex => "reciprocal up to the squared index".into(),
+        Reciprocity::ReflectionOnly => "reciprocal in reflection only".into(),
         Reciprocity::NonReciprocal { .. } => "not reciprocal".into(),
     }
 }
@@ -68,6 +69,7 @@ fn reciprocity(reciprocity: Reciprocity) -> String {
 fn energy(energy: &Energy) -> String {
     match energy {
         Energy::Conserves => "conserves energy".into(),
+        Energy::OfData => "energy as measured".into(),
         Energy::Gains { maximum, at } => format!("reflects up to {maximum:.4} of the light ({at})"),
     }
 }
@@ -93,8 +95,9 @@ fn as_json() -> Value {
         .map(|model| {
             let parameters = model.parameters.iter();
             let maximum = match model.energy {
-                Energy::Gains { maximum, .. } => maximum,
-                Energy::Conserves => 1.0,
+                Energy::Gains { maximum, .. } => Some(maximum),
+                Energy::Conserves => Some(1.0),
+                Energy::OfData => None,
             };
             json!({
                 "name": model.name,

@@ -223,7 +223,8 @@ mod tests {
 
     #[test]
     fn the_compensation_of_kulla_and_conty_has_nearly_the_energy_of_the_walk() {
-        // Grey metals of F_avg 0.4 and 0.9 at α = 0.9, where most light is scattered more than once.
+        // Grey metals of F_avg 0.37 and 0.92 at α = 0.9, where most light is scattered more than once.
+        let mut worst = [0.0_f64; 2];
         for (eta, k) in [(1.4, 1.6), (0.2, 3.0)] {
             let (ior, facets) = (ComplexIor::new(eta, k).unwrap(), facets(Distribution::Ggx, 0.9));
             let walk = ConductorWalk::new(ior, facets);
@@ -237,15 +238,18 @@ mod tests {
                     directional_albedo::<_, 96>(&model, wo),
                     directional_albedo::<_, 96>(&single, wo),
                 ];
-                // Facets met again are met at grazing more than F_avg knows: 0.008 to 0.021 too dark here.
+                // Facets met again are met at grazing more than F_avg knows: 0.007 to 0.021 too dark here.
                 let off = (whole - truth).abs();
-                assert!(off < 0.025 + error, "{eta} {cos} {whole} {truth}");
-                // Without the square of F_avg it would be further off, on the other side.
+                assert!(whole < truth && off < 0.021 + error, "{eta} {cos} {whole} {truth}");
+                // Without the square of F_avg it would be too bright: by 0.001 to 0.025 for the bright
+                // metal, where that is nearer at grazing, by up to 0.08 for the dark one.
                 let unsquared = first + (whole - first) / conductor_average(ior.eta(), ior.k());
-                assert!(unsquared - truth > off || eta < 1.0, "{eta} {cos} {unsquared} {truth}");
+                assert!(unsquared + error > truth, "{eta} {cos} {unsquared} {truth}");
+                worst = [worst[0].max(off), worst[1].max((unsquared - truth).abs())];
                 // And single scattering alone is further off still.
                 assert!(truth - first > 2.0 * off, "{eta} {cos} {first} {truth}");
             }
         }
+        assert!(worst[1] > 3.0 * worst[0], "{worst:?}");
     }
 }

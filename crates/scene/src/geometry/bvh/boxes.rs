@@ -58,7 +58,7 @@ impl<F: Copy> BoxRay<F> {
 /// Which boxes the ray meets before `t_max`, as a mask, and a lower bound on where it enters them.
 ///
 /// ```text
-/// t₀ = (1 − w) max(0, max over axes of (near − o)/d),  t₁ = (1 + w) min(t_max, min of (far − o)/d)
+/// t₀ = (1 − w) max(0, max over axes of (near − o)/d),  t₁ = min(t_max, (1 + w) min of (far − o)/d)
 /// met where t₀ ≤ t₁
 /// ```
 ///
@@ -72,7 +72,7 @@ pub(super) fn entered<S: Simd>(
     t_max: f32,
 ) -> (u32, [f32; LANES]) {
     let mut enter = simd.splat(0.0);
-    let mut leave = simd.splat(t_max);
+    let mut leave = simd.splat(f32::INFINITY);
     for axis in 0..3 {
         let row = ray.near[axis] as usize;
         let near = simd.sub(simd.load(&node.bounds[axis][row]), ray.origin[axis]);
@@ -83,6 +83,7 @@ pub(super) fn entered<S: Simd>(
     // Once for all axes: a negative end of the interval, which stretching makes worse, is no hit
     // either way.
     let enter = simd.mul(enter, simd.splat(1.0 - WIDEN));
-    let leave = simd.mul(leave, simd.splat(1.0 + WIDEN));
+    // Not where the ray ends: a segment to a light would reach the light's own box.
+    let leave = simd.min(simd.mul(leave, simd.splat(1.0 + WIDEN)), simd.splat(t_max));
     (simd.bits(simd.le(enter, leave)), simd.store(enter))
 }

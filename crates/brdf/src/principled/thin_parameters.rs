@@ -1,0 +1,89 @@
+//! What an artist says about a thin principled material.
+
+use etendue_math::{Real, Spectrum};
+
+use super::solid_parameters::{rate, unit};
+use crate::param::within;
+use crate::{Ior, ParameterError, Reflectance};
+
+/// Parameters of [`PrincipledThin`](crate::PrincipledThin), with the names and defaults of Mitsuba 3.
+///
+/// All lie in `[0, 1]` except `eta` (`[1e-4, 1e4]`), `diff_trans` (`[0, 2]`) and the sampling rates (`[0, 1e6]`).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PrincipledThinParameters<C: Spectrum> {
+    /// Colour of everything but untinted reflection. Default 0.5.
+    pub base_color: C,
+    /// Root of the facets' width. Default 0.5.
+    pub roughness: C::Real,
+    /// 0: isotropic; 1: ten times as wide along x as along y.
+    pub anisotropic: C::Real,
+    /// Share of the specular lobes; the rest is diffuse.
+    pub spec_trans: C::Real,
+    /// Index of the sheet. Default 1.5.
+    pub eta: C::Real,
+    /// Share of the specular reflection that is tinted with the base colour.
+    pub spec_tint: C::Real,
+    /// Weight of the sheen.
+    pub sheen: C::Real,
+    /// Share of the sheen that is tinted with the base colour.
+    pub sheen_tint: C::Real,
+    /// Share of flat subsurface scattering in the diffuse lobe.
+    pub flatness: C::Real,
+    /// Twice the share of diffuse light that is transmitted.
+    pub diff_trans: C::Real,
+    /// Rate at which specular reflection is sampled. Default 1.
+    pub specular_reflectance_sampling_rate: C::Real,
+    /// Rate of specular transmission. Default 1.
+    pub specular_transmittance_sampling_rate: C::Real,
+    /// Rate of diffuse reflection. Default 1.
+    pub diffuse_reflectance_sampling_rate: C::Real,
+    /// Rate of diffuse transmission. Default 1.
+    pub diffuse_transmittance_sampling_rate: C::Real,
+}
+
+impl<C: Spectrum> Default for PrincipledThinParameters<C> {
+    fn default() -> Self {
+        let (zero, one, half) = (<C::Real as Real>::ZERO, <C::Real as Real>::ONE, C::Real::HALF);
+        Self {
+            base_color: C::splat(half),
+            roughness: half,
+            anisotropic: zero,
+            spec_trans: zero,
+            eta: C::Real::lit(1.5),
+            spec_tint: zero,
+            sheen: zero,
+            sheen_tint: zero,
+            flatness: zero,
+            diff_trans: zero,
+            specular_reflectance_sampling_rate: one,
+            specular_transmittance_sampling_rate: one,
+            diffuse_reflectance_sampling_rate: one,
+            diffuse_transmittance_sampling_rate: one,
+        }
+    }
+}
+
+impl<C: Spectrum> PrincipledThinParameters<C> {
+    /// Checks every domain.
+    pub(super) fn check(&self) -> Result<(), ParameterError> {
+        let parameter = "base_color";
+        Reflectance::new(self.base_color).map_err(|e| ParameterError { parameter, ..e })?;
+        Ior::new(self.eta)?;
+        within("diff_trans", self.diff_trans, [0.0, 2.0], "in [0, 2]")?;
+        for (name, x) in [
+            ("roughness", self.roughness),
+            ("anisotropic", self.anisotropic),
+            ("spec_trans", self.spec_trans),
+            ("spec_tint", self.spec_tint),
+            ("sheen", self.sheen),
+            ("sheen_tint", self.sheen_tint),
+            ("flatness", self.flatness),
+        ] {
+            unit(name, x)?;
+        }
+        rate("specular_reflectance_sampling_rate", self.specular_reflectance_sampling_rate)?;
+        rate("specular_transmittance_sampling_rate", self.specular_transmittance_sampling_rate)?;
+        rate("diffuse_reflectance_sampling_rate", self.diffuse_reflectance_sampling_rate)?;
+        rate("diffuse_transmittance_sampling_rate", self.diffuse_transmittance_sampling_rate)
+    }
+}
