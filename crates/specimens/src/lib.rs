@@ -12,8 +12,6 @@
 #![forbid(unsafe_code)]
 
 #[cfg(test)]
-extern crate alloc;
-#[cfg(test)]
 extern crate std;
 
 #[cfg(test)]
