@@ -214,8 +214,8 @@ fn principled_thin<C: Spectrum>(p: &mut impl Parameters) -> PrincipledThinParame
 #[cfg(test)]
 mod tests {
     use super::*;
-    use etendue_brdf::registry::MODELS;
     use alloc::vec::Vec;
+    use etendue_brdf::registry::MODELS;
 
     #[test]
     fn every_registered_model_has_a_specimen() {
