@@ -16,9 +16,6 @@ extern crate alloc;
 #[cfg(test)]
 extern crate std;
 
-#[cfg(test)]
-extern crate alloc;
-
 pub mod bits;
 pub mod functions;
 mod inputs;
