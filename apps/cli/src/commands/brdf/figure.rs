@@ -65,6 +65,8 @@ fn polar(
     let centre = [left + PANEL / 2.0, top + 70.0 + RADIUS];
     svg.text("title", [centre[0], top + 20.0], Anchor::Middle, &model.name);
     svg.text("small", [centre[0], top + 35.0], Anchor::Middle, &model.parameters);
+    let key = [centre[0] - 20.0, top + 44.0];
+    svg.line(&format!("curve c{colour}"), key, [key[0] + 40.0, key[1]]);
     let at = |degrees: f64, radius: f64| {
         let (sin, cos) = Real::sin_cos(degrees.to_radians());
         [centre[0] + radius * sin, centre[1] - radius * cos]
@@ -111,7 +113,7 @@ fn polar(
 
 /// Which line pattern belongs to which viewer.
 fn pattern_legend(svg: &mut Svg, y: f64, width: f64, angles: &[f64]) {
-    let step = 120.0;
+    let step = 160.0;
     let start = (width - step * angles.len() as f64) / 2.0;
     for (pattern, degrees) in angles.iter().enumerate() {
         let x = start + step * pattern as f64;

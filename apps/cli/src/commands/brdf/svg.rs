@@ -50,7 +50,7 @@ impl Svg {
         let mut list = String::new();
         let mut last = String::new();
         for [x, y] in points {
-            let point = format!("{x:.2},{y:.2} ");
+            let point = format!("{x:.1},{y:.1} ");
             if point != last {
                 list.push_str(&point);
                 last = point;
@@ -144,6 +144,6 @@ mod tests {
     fn coinciding_points_are_written_once() {
         let mut svg = Svg::new([10.0, 10.0]);
         svg.polyline("curve", [[0.0, 0.0], [0.001, 0.0], [1.0, 0.0]]);
-        assert!(svg.body.contains(r#"points="0.00,0.00 1.00,0.00""#), "{}", svg.body);
+        assert!(svg.body.contains(r#"points="0.0,0.0 1.0,0.0""#), "{}", svg.body);
     }
 }
