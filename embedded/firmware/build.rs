@@ -54,7 +54,8 @@ fn rows() -> String {
         let path = folder.join(file).with_extension("jsonl");
         println!("cargo:rerun-if-changed={}", path.display());
         let lines = fs::read_to_string(path).unwrap();
-        let all: Vec<Value> = lines.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+        let all: Vec<Value> =
+            lines.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
         for (stratum, bound) in [("typical", TYPICAL), ("hard", HARD)] {
             let of_stratum = all.iter().filter(|row| row["stratum"] == stratum);
             let rows: Vec<String> = of_stratum.filter_map(|row| source(file, row, bound)).collect();
@@ -71,7 +72,8 @@ fn rows() -> String {
 fn source(file: &str, row: &Value, ulps: f64) -> Option<String> {
     let condition = row["cond"][1].as_f64().filter(|c| *c < 1e5)?;
     let exact = [row["f"].as_f64().or(row["value"].as_f64())?, row["pdf"].as_f64().unwrap_or(0.0)];
-    let bound = |x: f64| if x == 0.0 { f64::from(f32::MAX) } else { ulps * ulp32(x) * (1.0 + condition) };
+    let bound =
+        |x: f64| if x == 0.0 { f64::from(f32::MAX) } else { ulps * ulp32(x) * (1.0 + condition) };
     if exact[0] < 1e-30 {
         return None;
     }

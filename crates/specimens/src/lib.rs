@@ -14,9 +14,6 @@
 #[cfg(test)]
 extern crate std;
 
-#[cfg(test)]
-extern crate alloc;
-
 pub mod bits;
 pub mod functions;
 mod inputs;

@@ -4,12 +4,13 @@ use etendue_brdf::{
     AbsorbingSlab, Alpha, AshikhminShirley, AshikhminShirleyDiffuse, AshikhminShirleySampling,
     AshikhminShirleySpecular, BeckmannLambda, Blend, Bsdf, Burley, ComplexIor, Conductor, Coupled,
     CoupledInterface, Dielectric, DiffuseTransmitter, Distribution, Eon, EonAlbedo, EonSampling,
-    Exponent, InternalReflectance, InternalScattering, Ior, Lambert, LayeredFresnel, LayeredLinear,
-    Mask, Masking, Microfacets, Null, Opacity, OpticalDepth, OrenNayar, OrenNayarFujii,
-    OrenNayarQualitative, ParameterError, Phong, Plastic, PlasticInterface, Principled,
-    PrincipledParameters, PrincipledThin, PrincipledThinParameters, Reflectance, RoughConductor,
-    RoughCoupled, RoughDielectric, RoughPlastic, Roughness, Sigma, SmoothConductor,
-    SmoothDielectric, ThinDielectric, TransmittanceTable, TwoSided,
+    Exponent, InternalReflectance, InternalScattering, Ior, KullaContyConductor, Lambert,
+    LayeredFresnel, LayeredLinear, Mask, Masking, Microfacets, Null, Opacity, OpticalDepth,
+    OrenNayar, OrenNayarFujii, OrenNayarQualitative, ParameterError, Phong, Plastic,
+    PlasticInterface, Principled, PrincipledParameters, PrincipledThin, PrincipledThinParameters,
+    Reflectance, RoughConductor, RoughCoupled, RoughDielectric, RoughPlastic, Roughness, Sigma,
+    SmoothConductor, SmoothDielectric, ThinDielectric, TransmittanceTable, TurquinConductor,
+    TwoSided,
 };
 
 use etendue_math::{Real, Spectrum};
@@ -91,6 +92,7 @@ models! {
     DiffuseTransmitter "diffuse-transmitter" |p| DiffuseTransmitter::new(reflectance::<C>(p, 0.4)?, reflectance(p, 0.3)?)?;
     Eon "eon" |p| Eon::new(reflectance::<C>(p, 0.6)?, roughness(p)?).with_sampling(p.choice([EonSampling::Cosine, EonSampling::Cltc]));
     EonApproximate "eon-approx" |p| Eon::new(reflectance::<C>(p, 0.6)?, roughness(p)?).with_albedo(EonAlbedo::Approximate).with_sampling(p.choice([EonSampling::Cltc, EonSampling::Cosine]));
+    KullaContyConductor "kulla-conty-conductor" |p| KullaContyConductor::new(metal::<C>(p)?, round_facets(p)?)?;
     Lambert "lambert" |p| Lambert::new(reflectance::<C>(p, 0.6)?);
     LayeredFresnel "layered-fresnel" |p| LayeredFresnel::new(reflectance::<C>(p, 0.04)?, reflectance(p, 0.6)?);
     LayeredLinear "layered-linear" |p| LayeredLinear::new(reflectance::<C>(p, 0.6)?, reflectance(p, 0.1)?)?;
@@ -112,6 +114,7 @@ models! {
     SmoothConductor "smooth-conductor" |p| SmoothConductor::new(metal::<C>(p)?);
     SmoothDielectric "smooth-dielectric" |p| SmoothDielectric::<C>::new(ior(p)?);
     ThinDielectric "thin-dielectric" |p| ThinDielectric::<C>::new(ior(p)?);
+    TurquinConductor "turquin-conductor" |p| TurquinConductor::new(metal::<C>(p)?, round_facets(p)?)?;
     TwoSided "two-sided" |p| TwoSided::new(RoughConductor::new(metal::<C>(p)?, facets(p)?), Lambert::new(reflectance(p, 0.6)?));
 }
 
@@ -167,6 +170,12 @@ fn beckmann_facets<T: Real>(p: &mut impl Parameters) -> Result<Microfacets<T>, P
     Ok(Microfacets::new(distribution, alpha(p, 0.3)?, alpha(p, 0.2)?, masking(p)))
 }
 
+/// Isotropic ones, for which there are tables.
+fn round_facets<T: Real>(p: &mut impl Parameters) -> Result<Microfacets<T>, ParameterError> {
+    let width = alpha(p, 0.3)?;
+    Ok(Microfacets::new(distribution(p), width, width, masking(p)))
+}
+
 fn internal(p: &mut impl Parameters) -> InternalReflectance {
     p.choice([InternalReflectance::Exact, InternalReflectance::Mitsuba])
 }
@@ -214,8 +223,8 @@ fn principled_thin<C: Spectrum>(p: &mut impl Parameters) -> PrincipledThinParame
 #[cfg(test)]
 mod tests {
     use super::*;
-    use etendue_brdf::registry::MODELS;
     use alloc::vec::Vec;
+    use etendue_brdf::registry::MODELS;
 
     #[test]
     fn every_registered_model_has_a_specimen() {

@@ -144,7 +144,7 @@ impl Row {
         }
         // Well below what is asked of T. The jump of a rough interface's transmission where a facet stands upright lies
         // along no axis of any coordinates; more digits of it would take minutes.
-        let least = if lobes.transmission && !SHEETS.contains(&name) { 1e-9 } else { 1e-12 };
+        let least = if lobes.transmission && !SHEETS.contains(&name) { 1e-9 } else { 2e-13 };
         let tolerance = (0.1 * T::EPSILON.to_f64()).max(least);
         let model = build::<f64>(name, &self.params)?;
         let sides = adaptive_albedo(&*model, unit::<f64>("wo", self.wo.as_ref())?, tolerance);

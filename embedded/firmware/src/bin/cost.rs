@@ -109,12 +109,20 @@ impl Visitor<f32> for Calls<'_> {
     fn visit(self, model: &impl Bsdf<Color = f32>) {
         let (mut evaluation, mut sampling) = (0, 0);
         for i in 0..CALLS {
-            let Inputs { wo, wi, u, .. } = black_box(Inputs::<f32>::above(i as u64));
-            evaluation += u64::from(self.timer.ticks(|| model.eval_pdf(wo, wi)));
+            let inputs = Inputs::<f32>::above(i as u64);
+            // Opaque between the two readings of the time, so that no work moves out of there.
+            let opaque = || black_box(inputs);
+            evaluation += u64::from(self.timer.ticks(|| {
+                let i = opaque();
+                model.eval_pdf(i.wo, i.wi)
+            }));
             if const { same(env!("CALLS"), "eval") } {
                 continue;
             }
-            sampling += u64::from(self.timer.ticks(|| model.sample(wo, u[2], [u[0], u[1]])));
+            sampling += u64::from(self.timer.ticks(|| {
+                let i = opaque();
+                model.sample(i.wo, i.u[2], [i.u[0], i.u[1]])
+            }));
         }
         let mean = |ticks| self.timer.instructions(ticks) / CALLS as u64;
         hprintln!("eval_pdf {} sample {}", mean(evaluation), mean(sampling));
