@@ -30,7 +30,8 @@ pub(super) fn phong<T: Scalar>() -> Vec<Case<T>> {
     vec![
         case(0.0, 0.0, 5.0),
         case(1.0, 0.0, 5.0),
-        case(0.5, 0.5, 0.0),
+        // Not exponent 0: a step at α = π/2, on whose edge the two precisions may stand on different sides.
+        case(0.5, 0.5, 1.0),
         case(0.0, 1.0, 1.0),
         // cos θ = 1, 0.7, 0.1; the lobe that grazes half-sinks into the surface.
         case(0.0, 1.0, 10.0).published(&[(0.0, 1.0), (0.795_4, 0.700), (1.470_63, 0.179)]),
