@@ -58,8 +58,8 @@ impl<F: Copy> BoxRay<F> {
 /// Which boxes the ray meets before `t_max`, as a mask, and a lower bound on where it enters them.
 ///
 /// ```text
-/// t₀ = (1 − w) max(0, max over axes of (near − o)/d),  t₁ = min(t_max, (1 + w) min of (far − o)/d)
-/// met where t₀ ≤ t₁
+/// t₀ = max(0, max over axes of (near − o)/d),  t₁ = min((1 − w) t_max, min of (far − o)/d)
+/// met where t₀ ≤ (1 + w)/(1 − w) t₁,  entered at (1 − w) t₀ or later
 /// ```
 ///
 /// A ray in the plane of a side gives 0·∞ = NaN on that axis: `max` and `min` return their second
@@ -72,7 +72,7 @@ pub(super) fn entered<S: Simd>(
     t_max: f32,
 ) -> (u32, [f32; LANES]) {
     let mut enter = simd.splat(0.0);
-    let mut leave = simd.splat(f32::INFINITY);
+    let mut leave = simd.splat(t_max * (1.0 - WIDEN));
     for axis in 0..3 {
         let row = ray.near[axis] as usize;
         let near = simd.sub(simd.load(&node.bounds[axis][row]), ray.origin[axis]);
@@ -80,10 +80,8 @@ pub(super) fn entered<S: Simd>(
         enter = simd.max(simd.mul(near, ray.inverse[axis]), enter);
         leave = simd.min(simd.mul(far, ray.inverse[axis]), leave);
     }
-    // Once for all axes: a negative end of the interval, which stretching makes worse, is no hit
-    // either way.
-    let enter = simd.mul(enter, simd.splat(1.0 - WIDEN));
-    // Not where the ray ends: a segment to a light would reach the light's own box.
-    let leave = simd.min(simd.mul(leave, simd.splat(1.0 + WIDEN)), simd.splat(t_max));
-    (simd.bits(simd.le(enter, leave)), simd.store(enter))
+    // Widened once for all axes, and in one place: the comparison waits for it. An interval that ends
+    // behind the origin is no hit either way.
+    let met = simd.le(enter, simd.mul(leave, simd.splat((1.0 + WIDEN) / (1.0 - WIDEN))));
+    (simd.bits(met), simd.store(simd.mul(enter, simd.splat(1.0 - WIDEN))))
 }
