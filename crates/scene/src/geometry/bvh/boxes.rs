@@ -9,8 +9,10 @@ use crate::geometry::Ray;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct BoxRay<F> {
     origin: [F; 3],
-    /// Reciprocals of the direction.
-    inverse: [F; 3],
+    /// Reciprocals of the direction, shrunk for where boxes begin, stretched for where they end. Once
+    /// here instead of after the distances: every node waits for those.
+    to_near: [F; 3],
+    to_far: [F; 3],
     /// For each axis, which of its two rows in [`Node::bounds`] the ray meets first.
     near: [Row; 3],
 }
@@ -47,9 +49,11 @@ impl<F: Copy> BoxRay<F> {
     #[inline(always)]
     pub(super) fn new<S: Simd<F = F>>(simd: S, ray: &Ray, inverse: [f32; 3]) -> Self {
         let [x, y, z] = inverse;
+        let (shrink, stretch) = (1.0 - WIDEN, 1.0 + WIDEN);
         Self {
             origin: [simd.splat(ray.origin.x), simd.splat(ray.origin.y), simd.splat(ray.origin.z)],
-            inverse: [simd.splat(x), simd.splat(y), simd.splat(z)],
+            to_near: [simd.splat(x * shrink), simd.splat(y * shrink), simd.splat(z * shrink)],
+            to_far: [simd.splat(x * stretch), simd.splat(y * stretch), simd.splat(z * stretch)],
             near: [Row::first(x), Row::first(y), Row::first(z)],
         }
     }
@@ -58,8 +62,8 @@ impl<F: Copy> BoxRay<F> {
 /// Which boxes the ray meets before `t_max`, as a mask, and a lower bound on where it enters them.
 ///
 /// ```text
-/// t₀ = max(0, max over axes of (near − o)/d),  t₁ = min((1 − w) t_max, min of (far − o)/d)
-/// met where t₀ ≤ (1 + w)/(1 − w) t₁,  entered at (1 − w) t₀ or later
+/// t₀ = max(0, max over axes of (near − o) · (1 − w)/d),  t₁ = min(t_max, min of (far − o) · (1 + w)/d)
+/// met where t₀ ≤ t₁
 /// ```
 ///
 /// A ray in the plane of a side gives 0·∞ = NaN on that axis: `max` and `min` return their second
@@ -72,16 +76,13 @@ pub(super) fn entered<S: Simd>(
     t_max: f32,
 ) -> (u32, [f32; LANES]) {
     let mut enter = simd.splat(0.0);
-    let mut leave = simd.splat(t_max * (1.0 - WIDEN));
+    let mut leave = simd.splat(t_max);
     for axis in 0..3 {
         let row = ray.near[axis] as usize;
         let near = simd.sub(simd.load(&node.bounds[axis][row]), ray.origin[axis]);
         let far = simd.sub(simd.load(&node.bounds[axis][1 - row]), ray.origin[axis]);
-        enter = simd.max(simd.mul(near, ray.inverse[axis]), enter);
-        leave = simd.min(simd.mul(far, ray.inverse[axis]), leave);
+        enter = simd.max(simd.mul(near, ray.to_near[axis]), enter);
+        leave = simd.min(simd.mul(far, ray.to_far[axis]), leave);
     }
-    // Widened once for all axes, and in one place: the comparison waits for it. An interval that ends
-    // behind the origin is no hit either way.
-    let met = simd.le(enter, simd.mul(leave, simd.splat((1.0 + WIDEN) / (1.0 - WIDEN))));
-    (simd.bits(met), simd.store(simd.mul(enter, simd.splat(1.0 - WIDEN))))
+    (simd.bits(simd.le(enter, leave)), simd.store(enter))
 }
