@@ -160,7 +160,7 @@ impl Geometry {
         self.top.bvh.closest(simd, &PreparedRay::new(simd, ray), &objects, &mut found);
         (found.shape != u32::MAX).then_some(Hit {
             t: found.t,
-            uv: found.uv(),
+            uv: found.uv,
             shape: ShapeId(found.shape),
             primitive: found.primitive,
             instance: found.instance,

@@ -36,9 +36,9 @@ impl TriangleBlock {
 
     /// A hit in a lane.
     #[inline(always)]
-    pub(super) fn found(&self, lane: usize, t: f32, edges: [f32; 2], determinant: f32) -> Found {
+    pub(super) fn found(&self, lane: usize, t: f32, uv: [f32; 2]) -> Found {
         let (shape, primitive) = (self.shapes[lane], self.primitives[lane]);
-        Found { t, edges, determinant, shape, primitive, instance: u32::MAX }
+        Found { t, uv, shape, primitive, instance: u32::MAX }
     }
 }
 

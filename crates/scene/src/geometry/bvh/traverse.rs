@@ -9,9 +9,7 @@ use super::{Bvh, LANES, PreparedRay, boxes, triangles};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::geometry) struct Found {
     pub(in crate::geometry) t: f32,
-    /// Edge functions of the second and third corner, and the sum of all three.
-    pub(in crate::geometry) edges: [f32; 2],
-    pub(in crate::geometry) determinant: f32,
+    pub(in crate::geometry) uv: [f32; 2],
     pub(in crate::geometry) shape: u32,
     pub(in crate::geometry) primitive: u32,
     pub(in crate::geometry) instance: u32,
@@ -21,20 +19,7 @@ impl Found {
     /// No hit, with `t` as the limit for one; its shape is `u32::MAX`.
     #[inline(always)]
     pub(in crate::geometry) fn nothing_before(t: f32) -> Self {
-        Self {
-            t,
-            edges: [0.0; 2],
-            determinant: 1.0,
-            shape: u32::MAX,
-            primitive: 0,
-            instance: u32::MAX,
-        }
-    }
-
-    /// Barycentric weights of the second and third corner, divided once per ray.
-    #[inline(always)]
-    pub(in crate::geometry) fn uv(&self) -> [f32; 2] {
-        [self.edges[0] / self.determinant, self.edges[1] / self.determinant]
+        Self { t, uv: [0.0; 2], shape: u32::MAX, primitive: 0, instance: u32::MAX }
     }
 }
 

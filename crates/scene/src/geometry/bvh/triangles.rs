@@ -157,7 +157,8 @@ pub(super) fn closest<S: Simd>(
         let determinant = simd.store(tested.determinant);
         for lane in lanes(tested.hit) {
             if t[lane] < found.t {
-                *found = block.found(lane, t[lane], [v[lane], w[lane]], determinant[lane]);
+                let uv = [v[lane] / determinant[lane], w[lane] / determinant[lane]];
+                *found = block.found(lane, t[lane], uv);
             }
         }
     }
@@ -167,7 +168,7 @@ pub(super) fn closest<S: Simd>(
             if let Some((t, uv)) = redo(&corners, lane, ray.inverse)
                 && t < found.t
             {
-                *found = block.found(lane, t, uv, 1.0);
+                *found = block.found(lane, t, uv);
             }
         }
     }
