@@ -2,6 +2,7 @@
 
 use etendue_math::{Real, Spectrum};
 
+use crate::param::not_negative;
 use crate::{OpticalDepth, ParameterError, Reflectance};
 
 /// Absorption coefficient σa of a medium per channel, in the inverse of the unit of length.
@@ -33,10 +34,7 @@ impl<C: Spectrum> Absorption<C> {
     /// [`ParameterError`] where a channel is negative, infinite or NaN.
     pub fn new(sigma_a: C) -> Result<Self, ParameterError> {
         for i in 0..C::CHANNELS {
-            let x = sigma_a.channel(i);
-            if !(x >= C::Real::ZERO && x < C::Real::INFINITY) {
-                return Err(error("sigma_a", x, "finite and not negative"));
-            }
+            not_negative("sigma_a", sigma_a.channel(i))?;
         }
         Ok(Self(sigma_a))
     }
@@ -82,10 +80,7 @@ impl<C: Spectrum> Absorption<C> {
     /// # Errors
     /// [`ParameterError`] where the thickness is negative, infinite or NaN, or τ is not finite.
     pub fn depth(self, distance: C::Real) -> Result<OpticalDepth<C>, ParameterError> {
-        if !(distance >= C::Real::ZERO && distance < C::Real::INFINITY) {
-            return Err(error("distance", distance, "finite and not negative"));
-        }
-        OpticalDepth::new(self.0.scale(distance))
+        OpticalDepth::new(self.0.scale(not_negative("distance", distance)?))
     }
 
     /// The share of light left after `distance`, per channel in `[0, 1]`.

@@ -113,6 +113,7 @@ mod laws;
 mod layered;
 mod measured;
 pub mod microfacet;
+mod mixture;
 #[cfg(feature = "alloc")]
 pub mod named;
 mod param;

@@ -38,6 +38,11 @@ pub(crate) fn within<T: Real>(
     }
 }
 
+/// `x` when it is finite and not negative; NaN is not.
+pub(crate) fn not_negative<T: Real>(parameter: &'static str, x: T) -> Result<T, ParameterError> {
+    within(parameter, x, [0.0, T::MAX.to_f64()], "finite and not negative")
+}
+
 /// Width parameter α of a microfacet distribution, dimensionless; never its square root.
 ///
 /// Domain `[1e-8, 1e4]`. Below, the lobe is narrower than the rounding of a unit `f32` vector and
@@ -206,7 +211,7 @@ impl<T: Real> Sigma<T> {
     /// # Errors
     /// [`ParameterError`] where σ is negative, infinite or NaN.
     pub fn new(sigma: T) -> Result<Self, ParameterError> {
-        within("sigma", sigma, [0.0, T::MAX.to_f64()], "finite and not negative").map(Self)
+        not_negative("sigma", sigma).map(Self)
     }
 
     /// σ moved into the domain, NaN to 0: for values read from textures.
@@ -335,8 +340,7 @@ impl<C: Spectrum> OpticalDepth<C> {
     /// [`ParameterError`] where a channel is negative, infinite or NaN.
     pub fn new(depth: C) -> Result<Self, ParameterError> {
         for i in 0..C::CHANNELS {
-            let domain = "finite and not negative";
-            within("optical depth", depth.channel(i), [0.0, C::Real::MAX.to_f64()], domain)?;
+            not_negative("optical depth", depth.channel(i))?;
         }
         Ok(Self(depth))
     }

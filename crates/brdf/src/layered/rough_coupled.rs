@@ -6,9 +6,10 @@ use etendue_sampling::warp::cosine_hemisphere;
 use super::coupled_interface::{self, CoupledInterface};
 use crate::bsdf::{above, both_above};
 use crate::direction::{half_vector, reflect_about};
+use crate::mixture::mixture_sample;
 use crate::registry::{Albedo, Energy, ModelInfo, Reciprocity, parameter};
 use crate::rough::rough_conductor::reflection_pdf;
-use crate::{Bsdf, BsdfReal, BsdfVec, Density, Lobes, Microfacets, Reflectance, Sample};
+use crate::{Bsdf, BsdfReal, BsdfVec, Lobes, Microfacets, Reflectance, Sample};
 
 /// [`Coupled`](crate::Coupled) with a microfacet lobe in the place of its mirror.
 ///
@@ -99,12 +100,7 @@ impl<C: Spectrum> Bsdf for RoughCoupled<C> {
         } else {
             cosine_hemisphere::from_square(u)
         };
-        let (f, pdf) = self.eval_pdf(wo, wi);
-        if !(pdf > C::Real::ZERO) || f.is_black() {
-            return None;
-        }
-        let weight = f.scale(wi.z() / pdf);
-        Some(Sample { wi, weight, density: Density::Continuous(pdf), eta: C::Real::ONE })
+        mixture_sample(self, wo, wi)
     }
 }
 

@@ -7,11 +7,11 @@ use super::internal_scattering::{specular_probability, specular_share};
 use crate::bsdf::{above, both_above};
 use crate::direction::{half_vector, reflect_about};
 use crate::fresnel::dielectric;
+use crate::mixture::mixture_sample;
 use crate::registry::{Albedo, Energy, ModelInfo, Reciprocity, parameter};
 use crate::rough::rough_conductor::reflection_pdf;
 use crate::{
-    Bsdf, BsdfReal, BsdfVec, Density, InternalScattering, Lobes, Reflectance, Sample,
-    TransmittanceTable,
+    Bsdf, BsdfReal, BsdfVec, InternalScattering, Lobes, Reflectance, Sample, TransmittanceTable,
 };
 
 /// Rough plastic: microfacet reflection at the interface, diffuse scattering below it.
@@ -116,12 +116,7 @@ impl<C: Spectrum> Bsdf for RoughPlastic<'_, C> {
         } else {
             cosine_hemisphere::from_square(u)
         };
-        let (f, pdf) = self.eval_pdf(wo, wi);
-        if !(pdf > C::Real::ZERO) || f.is_black() {
-            return None;
-        }
-        let weight = f.scale(wi.z() / pdf);
-        Some(Sample { wi, weight, density: Density::Continuous(pdf), eta: C::Real::ONE })
+        mixture_sample(self, wo, wi)
     }
 }
 

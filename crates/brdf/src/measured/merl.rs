@@ -10,8 +10,9 @@ use super::half_difference::HalfDifference;
 use super::table::SIZE;
 use crate::bsdf::{above, both_above};
 use crate::direction::reflect_about;
+use crate::mixture::limited_mixture_sample;
 use crate::registry::{Albedo, Energy, ModelInfo, Reciprocity, parameter};
-use crate::{Bsdf, BsdfReal, BsdfVec, Density, Lobes, Sample};
+use crate::{Bsdf, BsdfReal, BsdfVec, Lobes, Sample};
 
 /// Rings of half vectors.
 const RINGS: usize = SIZE[0];
@@ -232,12 +233,7 @@ impl<C: Spectrum> Bsdf for Measured<'_, C> {
         } else {
             reflect_about(wo, self.sample_half_vector(u)?)
         };
-        let (f, pdf) = self.eval_pdf(wo, wi);
-        if !(pdf > C::Real::ZERO) || f.is_black() {
-            return None;
-        }
-        let weight = f.map(|c| (c / pdf * wi.z()).min(C::Real::MAX));
-        Some(Sample { wi, weight, density: Density::Continuous(pdf), eta: C::Real::ONE })
+        limited_mixture_sample(self, wo, wi, C::Real::ONE)
     }
 }
 

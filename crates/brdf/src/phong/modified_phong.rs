@@ -6,11 +6,10 @@ use etendue_sampling::warp::{cosine_hemisphere, turn};
 
 use crate::bsdf::{above, both_above};
 use crate::direction::reflect;
+use crate::mixture::mixture_sample;
 use crate::param::at_most_all_together;
 use crate::registry::{Albedo, Energy, ModelInfo, Reciprocity, parameter};
-use crate::{
-    Bsdf, BsdfReal, BsdfVec, Density, Exponent, Lobes, ParameterError, Reflectance, Sample,
-};
+use crate::{Bsdf, BsdfReal, BsdfVec, Exponent, Lobes, ParameterError, Reflectance, Sample};
 
 /// A diffuse part and a power of the cosine around the mirror direction.
 ///
@@ -142,12 +141,7 @@ impl<C: Spectrum> Bsdf for Phong<C> {
         } else {
             cosine_hemisphere::from_square(u)
         };
-        let (f, pdf) = self.eval_pdf(wo, wi);
-        if f.is_black() || !(pdf > C::Real::ZERO) {
-            return None;
-        }
-        let weight = f.scale(wi.z() / pdf);
-        Some(Sample { wi, weight, density: Density::Continuous(pdf), eta: one })
+        mixture_sample(self, wo, wi)
     }
 
     #[inline]

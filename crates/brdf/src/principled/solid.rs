@@ -11,12 +11,12 @@ use super::sheen::Sheen;
 use crate::bsdf::above;
 use crate::direction::{half_vector, reflect_about};
 use crate::fresnel::{RelativeIndex, refract_at};
+use crate::mixture::limited_mixture_sample;
 use crate::registry::{Albedo, Energy, ModelInfo, Reciprocity, parameter};
 use crate::rough::rough_conductor::reflection_pdf;
 use crate::rough::rough_dielectric::refraction_lobe;
 use crate::{
-    Bsdf, BsdfReal, BsdfVec, Density, Lobes, Microfacets, ParameterError, PrincipledParameters,
-    Sample,
+    Bsdf, BsdfReal, BsdfVec, Lobes, Microfacets, ParameterError, PrincipledParameters, Sample,
 };
 
 /// Disney's principled BSDF in Mitsuba 3's definition: metal, glass and matter with sheen and clear coat.
@@ -283,24 +283,8 @@ impl<C: Spectrum> Bsdf for Principled<C> {
         }
         let (wi, eta) = self.draw(&side, w, u_lobe, u)?;
         let wi = if side.is_front { wi } else { wi.flip_z() };
-        mixture_sample(self, wo, wi, eta)
+        limited_mixture_sample(self, wo, wi, eta)
     }
-}
-
-/// A direction drawn from one lobe of a mixture, worth `f cos / pdf` of the whole.
-#[inline]
-pub(super) fn mixture_sample<B: Bsdf>(
-    model: &B,
-    wo: BsdfVec<B>,
-    wi: BsdfVec<B>,
-    eta: BsdfReal<B>,
-) -> Option<Sample<B::Color>> {
-    let (f, pdf) = model.eval_pdf(wo, wi);
-    if !(pdf > BsdfReal::<B>::ZERO) || f.is_black() {
-        return None;
-    }
-    let weight = f.map(|c| (c / pdf * wi.z().abs()).min(BsdfReal::<B>::MAX));
-    Some(Sample { wi, weight, density: Density::Continuous(pdf), eta })
 }
 
 /// The entry of the model in the [registry](crate::registry).

@@ -7,10 +7,10 @@ use super::diffuse::Diffuse;
 use super::facets::facets;
 use super::fresnel::BlendedFresnel;
 use super::sheen::Sheen;
-use super::solid::mixture_sample;
 use crate::bsdf::above;
 use crate::direction::{half_vector, reflect_about};
 use crate::fresnel::RelativeIndex;
+use crate::mixture::limited_mixture_sample;
 use crate::registry::{Albedo, Energy, ModelInfo, Reciprocity, parameter};
 use crate::rough::rough_conductor::reflection_pdf;
 use crate::{
@@ -222,7 +222,7 @@ impl<C: Spectrum> Bsdf for PrincipledThin<C> {
         let reflected = u_lobe < choice.specular_reflection
             || (u_lobe >= specular && u_lobe - specular < choice.diffuse_reflection);
         let wi = if reflected == is_front { wi } else { wi.flip_z() };
-        mixture_sample(self, wo, wi, C::Real::ONE)
+        limited_mixture_sample(self, wo, wi, C::Real::ONE)
     }
 }
 

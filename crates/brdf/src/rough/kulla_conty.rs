@@ -6,9 +6,10 @@ use etendue_sampling::warp::cosine_hemisphere;
 use crate::bsdf::{above, both_above};
 use crate::fresnel::conductor_average;
 use crate::microfacet::FacetLoss;
+use crate::mixture::mixture_sample;
 use crate::registry::{Albedo, Energy, ModelInfo, Reciprocity, parameter};
 use crate::{
-    Bsdf, BsdfReal, BsdfVec, ComplexIor, Density, Lobes, Microfacets, ParameterError, Reflectance,
+    Bsdf, BsdfReal, BsdfVec, ComplexIor, Lobes, Microfacets, ParameterError, Reflectance,
     RoughConductor, Sample,
 };
 
@@ -142,12 +143,7 @@ impl<C: Spectrum> Bsdf for KullaContyConductor<C> {
         } else {
             cosine_hemisphere::from_square(u)
         };
-        let (f, pdf) = self.eval_pdf(wo, wi);
-        if !(pdf > C::Real::ZERO) || f.is_black() {
-            return None;
-        }
-        let weight = f.scale(wi.z() / pdf);
-        Some(Sample { wi, weight, density: Density::Continuous(pdf), eta: C::Real::ONE })
+        mixture_sample(self, wo, wi)
     }
 }
 
