@@ -57,11 +57,13 @@ impl<T: Real> ClippedCosine<T> {
         let lit = T::lit;
         let a_mu = lit(0.303_392) + (lit(-0.518_982) + lit(0.111_709) * mu) * mu;
         let a = T::ONE + r * (a_mu + (lit(-0.276_266) + lit(0.335_918) * mu) * r);
-        let b_mu = lit(-1.164_07) + lit(1.158_59) * mu;
-        let b_r = lit(0.150_815) - lit(0.150_105) * mu;
+        // b and d almost vanish for a viewer at the normal: in powers of 1 − μ they keep their digits there.
+        let t = T::ONE - mu;
+        let b_mu = lit(-0.005_48) - lit(1.158_59) * t;
+        let b_r = lit(0.000_71) + lit(0.150_105) * t;
         let b = r * (b_mu + b_r * r) / (mu * mu * mu - lit(1.435_45));
         let c = T::ONE + r * (lit(0.200_13) + (lit(-0.506_373) + lit(0.261_777) * mu) * mu);
-        let d = r * (lit(0.540_852) + (lit(-1.016_25) + lit(0.475_392) * mu) * mu)
+        let d = r * (lit(-0.000_006) + (lit(0.065_466) + lit(0.475_392) * t) * t)
             / (lit(-1.074_3) + (lit(0.072_562_8) + mu) * mu);
         let hypotenuse = (T::ONE + d * d).sqrt();
         let clipped = d * d * T::HALF / (hypotenuse * (T::ONE + hypotenuse));
