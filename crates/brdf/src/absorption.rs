@@ -53,12 +53,13 @@ impl<C: Spectrum> Absorption<C> {
         distance: C::Real,
     ) -> Result<Self, ParameterError> {
         if !(distance > C::Real::ZERO && distance < C::Real::INFINITY) {
-            return Err(error("distance", distance, "positive and finite"));
+            return Err(ParameterError::number("distance", distance, "positive and finite"));
         }
         let color = transmittance.value();
         for i in 0..C::CHANNELS {
             if color.channel(i) == C::Real::ZERO {
-                return Err(error("transmittance", color.channel(i), "above 0"));
+                let value = color.channel(i);
+                return Err(ParameterError::number("transmittance", value, "above 0"));
             }
         }
         Self::new(color.map(|t| -t.ln() / distance))
@@ -100,10 +101,6 @@ impl<C: Spectrum> Absorption<C> {
         }
         self.0.map(|sigma| (-(sigma * distance)).exp())
     }
-}
-
-fn error<T: Real>(parameter: &'static str, value: T, domain: &'static str) -> ParameterError {
-    ParameterError { parameter, value: value.to_f64(), domain }
 }
 
 #[cfg(test)]

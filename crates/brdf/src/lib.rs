@@ -20,6 +20,8 @@
 //! | model | parameters | laws | sampled by | source |
 //! | --- | --- | --- | --- | --- |
 //! | [`AbsorbingSlab`] | eta, optical_depth | reciprocal; albedo ≤ 1 in closed form | delta, by the mean shares | Heavens 1955 |
+//! | [`AnyCoupled`] | r0, rm, distribution, alpha_x, alpha_y, masking | reciprocal; albedo ≤ 1.017 | that of the variant chosen at construction | coupled, or rough-coupled for alpha >= 1e-8 |
+//! | [`AnyPlastic`] | eta, distribution, alpha, masking, reflectance, specular_reflectance, scattering, internal_reflectance | reciprocal; albedo ≤ 1 | that of the variant chosen at construction | plastic, or rough-plastic for alpha >= 1e-8 |
 //! | [`AshikhminShirley`] | nu, nv, rs, rd, sampling | reciprocal; albedo ≤ 1 | half vectors, p(h)/(4 h·wo), and cosine by albedos; or half vectors alone | Ashikhmin and Shirley 2000 |
 //! | [`AshikhminShirleyDiffuse`] | rs, rd | reciprocal; albedo ≤ 1 in closed form | cosine | Ashikhmin and Shirley 2000, eq. 5 |
 //! | [`AshikhminShirleySpecular`] | nu, nv, rs | reciprocal; albedo ≤ 1 | half vectors, p(h)/(4 h·wo) | Ashikhmin and Shirley 2000 |
@@ -32,6 +34,7 @@
 //! | [`Eon`] | reflectance, roughness, sampling | reciprocal; albedo ≤ 1 in closed form | cosine, or clipped linearly transformed cosine | Portsmouth, Kutz and Hill 2025 |
 //! | [`Eon`] | reflectance, roughness, sampling | reciprocal; albedo ≤ 1.000147 in closed form | cosine, or clipped linearly transformed cosine | Portsmouth, Kutz and Hill 2025 |
 //! | [`KullaContyConductor`] | eta, k, distribution, alpha, masking, specular_reflectance | reciprocal; albedo ≤ 1.004 | mixture of visible normals and cosine | Kulla and Conty 2017, with the square of F_avg |
+//! | [`KullaContyDielectric`] | eta, distribution, alpha, masking, specular_reflectance, specular_transmittance | reciprocal up to η²; albedo ≤ 1.013 | mixture of visible normals and cosine on either side | Kulla and Conty 2017, with shares by energy |
 //! | [`Lambert`] | reflectance | reciprocal; albedo ≤ 1 in closed form | cosine | Lambert 1760 |
 //! | [`LayeredFresnel`] | r0, rd | **not reciprocal**; albedo ≤ 1.952381 in closed form | mirror or cosine, by mean albedos | Shirley et al. 1997, section 2 |
 //! | [`LayeredLinear`] | rd, rs | reciprocal; albedo ≤ 1 in closed form | mirror or cosine, by mean shares | Shirley et al. 1997, section 2 |
@@ -133,14 +136,14 @@ pub use diffuse::{
     OrenNayarFujii, OrenNayarQualitative, fon,
 };
 pub use layered::{
-    Coupled, CoupledInterface, InternalReflectance, InternalScattering, LayeredFresnel,
-    LayeredLinear, MirrorOverMatte, Plastic, PlasticInterface, RoughCoupled, RoughPlastic,
-    StochasticLayers, TransmittanceTable,
+    AnyCoupled, AnyPlastic, Coupled, CoupledInterface, InternalReflectance, InternalScattering,
+    LayeredFresnel, LayeredLinear, MirrorOverMatte, Plastic, PlasticInterface, PlasticSurface,
+    RoughCoupled, RoughPlastic, StochasticLayers, TransmittanceTable,
 };
 pub use measured::{Interpolation, Measured, MerlError, MerlTable, tabulate};
 pub use microfacet::{BeckmannLambda, Distribution, Masking, Microfacets};
 pub use param::{
-    Alpha, ComplexIor, Exponent, Ior, Opacity, OpticalDepth, ParameterError, Reflectance,
+    Alpha, ComplexIor, Exponent, Given, Ior, Opacity, OpticalDepth, ParameterError, Reflectance,
     Roughness, Sigma,
 };
 pub use phong::{
@@ -149,7 +152,8 @@ pub use phong::{
 };
 pub use principled::{Principled, PrincipledParameters, PrincipledThin, PrincipledThinParameters};
 pub use rough::{
-    Conductor, Dielectric, KullaContyConductor, RoughConductor, RoughDielectric, TurquinConductor,
+    Conductor, Dielectric, KullaContyConductor, KullaContyDielectric, RoughConductor,
+    RoughDielectric, TurquinConductor,
 };
 pub use smooth::{AbsorbingSlab, Null, SmoothConductor, SmoothDielectric, ThinDielectric};
 

@@ -10,21 +10,60 @@ use etendue_math::{Real, Spectrum};
 pub struct ParameterError {
     /// Name of the parameter.
     pub parameter: &'static str,
-    /// The offending value, of the first offending channel for colours.
-    pub value: f64,
+    /// What was given.
+    pub given: Given,
     /// What is accepted, in words.
     pub domain: &'static str,
 }
 
+/// What a constructor was given and refuses.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Given {
+    /// A number, of the first offending channel for colours.
+    Number(f64),
+    /// One of several choices, by its name.
+    Choice(&'static str),
+}
+
+impl ParameterError {
+    /// A number outside its domain.
+    pub(crate) fn number<T: Real>(parameter: &'static str, x: T, domain: &'static str) -> Self {
+        Self { parameter, given: Given::Number(x.to_f64()), domain }
+    }
+
+    /// A choice that does not go with the others.
+    pub(crate) const fn choice(
+        parameter: &'static str,
+        choice: &'static str,
+        domain: &'static str,
+    ) -> Self {
+        Self { parameter, given: Given::Choice(choice), domain }
+    }
+
+    /// The same, said of a parameter of another name.
+    pub(crate) fn named(self, parameter: &'static str) -> Self {
+        Self { parameter, ..self }
+    }
+}
+
 impl fmt::Display for ParameterError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} is {}, but must be {}", self.parameter, self.value, self.domain)
+        write!(f, "{} is {}, but must be {}", self.parameter, self.given, self.domain)
+    }
+}
+
+impl fmt::Display for Given {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Number(x) => x.fmt(f),
+            Self::Choice(name) => f.write_str(name),
+        }
     }
 }
 
 impl Error for ParameterError {}
 
-/// `x` when it lies in `[low, high]`; NaN does not.
+/// `x` when it lies in `[low, high]`; NaN does not. −0 becomes 0.
 pub(crate) fn within<T: Real>(
     parameter: &'static str,
     x: T,
@@ -32,22 +71,42 @@ pub(crate) fn within<T: Real>(
     domain: &'static str,
 ) -> Result<T, ParameterError> {
     if x >= T::lit(low) && x <= T::lit(high) {
-        Ok(x)
+        Ok(positive_zero(x))
     } else {
-        Err(ParameterError { parameter, value: x.to_f64(), domain })
+        Err(ParameterError::number(parameter, x, domain))
     }
+}
+
+/// `color` when all its channels lie in `[low, high]`; −0 becomes 0.
+fn each_within<C: Spectrum>(
+    parameter: &'static str,
+    color: C,
+    range: [f64; 2],
+    domain: &'static str,
+) -> Result<C, ParameterError> {
+    for i in 0..C::CHANNELS {
+        within(parameter, color.channel(i), range, domain)?;
+    }
+    Ok(color.map(positive_zero))
+}
+
+/// 0 for −0, which is in every domain that begins with 0: a quotient by it would be −∞ where the limit is ∞.
+fn positive_zero<T: Real>(x: T) -> T {
+    x + T::ZERO
 }
 
 /// `x` when it is finite and not negative; NaN is not.
 pub(crate) fn not_negative<T: Real>(parameter: &'static str, x: T) -> Result<T, ParameterError> {
-    within(parameter, x, [0.0, T::MAX.to_f64()], "finite and not negative")
+    within(parameter, x, [0.0, T::MAX.to_f64()], NOT_NEGATIVE)
 }
+
+const NOT_NEGATIVE: &str = "finite and not negative";
 
 /// Width parameter α of a microfacet distribution, dimensionless; never its square root.
 ///
 /// Domain `[1e-8, 1e4]`. Below, the lobe is narrower than the rounding of a unit `f32` vector and
-/// the surface is a mirror: choose the delta model, as [`Conductor`](crate::Conductor) and
-/// [`Dielectric`](crate::Dielectric) do.
+/// the surface is a mirror: choose the delta model, as [`Conductor`](crate::Conductor),
+/// [`Dielectric`](crate::Dielectric), [`AnyPlastic`](crate::AnyPlastic) and [`AnyCoupled`](crate::AnyCoupled) do.
 ///
 /// # Examples
 /// ```
@@ -134,11 +193,8 @@ impl<C: Spectrum> ComplexIor<C> {
     /// # Errors
     /// [`ParameterError`] where a channel of either lies outside `[0, 1e4]`.
     pub fn new(eta: C, k: C) -> Result<Self, ParameterError> {
-        for i in 0..C::CHANNELS {
-            within("eta", eta.channel(i), [0.0, 1e4], "in [0, 1e4]")?;
-            within("k", k.channel(i), [0.0, 1e4], "in [0, 1e4]")?;
-        }
-        Ok(Self { eta, k })
+        let checked = |name, x| each_within(name, x, [0.0, 1e4], "in [0, 1e4]");
+        Ok(Self { eta: checked("eta", eta)?, k: checked("k", k)? })
     }
 
     /// Both parts moved into the domain, NaN to 0: for values read from textures.
@@ -176,10 +232,7 @@ impl<C: Spectrum> Reflectance<C> {
     /// # Errors
     /// [`ParameterError`] where a channel lies outside `[0, 1]`.
     pub fn new(reflectance: C) -> Result<Self, ParameterError> {
-        for i in 0..C::CHANNELS {
-            within("reflectance", reflectance.channel(i), [0.0, 1.0], "in [0, 1]")?;
-        }
-        Ok(Self(reflectance))
+        each_within("reflectance", reflectance, [0.0, 1.0], "in [0, 1]").map(Self)
     }
 
     /// Every channel moved into `[0, 1]`, NaN to 0: for values read from textures.
@@ -295,11 +348,7 @@ pub(crate) fn at_most_all_together<C: Spectrum>(
     a: Reflectance<C>,
     b: Reflectance<C>,
 ) -> Result<(), ParameterError> {
-    let sum = a.value() + b.value();
-    for i in 0..C::CHANNELS {
-        within(parameter, sum.channel(i), [0.0, 1.0], "at most 1")?;
-    }
-    Ok(())
+    each_within(parameter, a.value() + b.value(), [0.0, 1.0], "at most 1").map(|_| ())
 }
 
 /// Opacity, the share of light that meets the surface at all. Domain `[0, 1]`.
@@ -339,10 +388,7 @@ impl<C: Spectrum> OpticalDepth<C> {
     /// # Errors
     /// [`ParameterError`] where a channel is negative, infinite or NaN.
     pub fn new(depth: C) -> Result<Self, ParameterError> {
-        for i in 0..C::CHANNELS {
-            not_negative("optical depth", depth.channel(i))?;
-        }
-        Ok(Self(depth))
+        each_within("optical depth", depth, [0.0, C::Real::MAX.to_f64()], NOT_NEGATIVE).map(Self)
     }
 
     /// A layer that absorbs nothing.
@@ -387,6 +433,24 @@ mod tests {
     }
 
     #[test]
+    fn zero_has_no_sign() {
+        let positive = |x: f64| assert!(x == 0.0 && x.is_sign_positive(), "{x:?}");
+        positive(ComplexIor::new(-0.0, 1.0).unwrap().eta());
+        positive(ComplexIor::new(1.0, -0.0).unwrap().k());
+        positive(Reflectance::new(-0.0).unwrap().value());
+        positive(Reflectance::clamped(-0.0).value());
+        positive(Sigma::new(-0.0).unwrap().value());
+        positive(Sigma::clamped(-0.0).value());
+        positive(Opacity::new(-0.0).unwrap().value());
+        positive(Opacity::clamped(-0.0).value());
+        positive(Roughness::new(-0.0).unwrap().value());
+        positive(Roughness::clamped(-0.0).value());
+        positive(Exponent::new(-0.0).unwrap().value());
+        positive(Exponent::clamped(-0.0).value());
+        positive(OpticalDepth::new(-0.0).unwrap().0);
+    }
+
+    #[test]
     fn clamping_is_total() {
         assert_eq!(
             Reflectance::clamped(Rgb::new(f32::NAN, 2.0, -1.0)).value(),
@@ -414,5 +478,7 @@ mod tests {
     fn an_error_names_parameter_value_and_domain() {
         let text = Reflectance::new(Rgb::new(0.5_f64, 1.5, 0.5)).unwrap_err().to_string();
         assert_eq!(text, "reflectance is 1.5, but must be in [0, 1]");
+        let text = ParameterError::choice("masking", "separable", "height-correlated").to_string();
+        assert_eq!(text, "masking is separable, but must be height-correlated");
     }
 }

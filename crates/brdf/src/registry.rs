@@ -99,8 +99,15 @@ pub(crate) mod parameter {
     pub(crate) const ALPHA: ParameterInfo = named("alpha", "in [1e-8, 1e4]");
     pub(crate) const ALPHA_X: ParameterInfo = named("alpha_x", "in [1e-8, 1e4]");
     pub(crate) const ALPHA_Y: ParameterInfo = named("alpha_y", "in [1e-8, 1e4]");
+    /// Widths of models that are smooth at 0.
+    pub(crate) const ANY_ALPHA: ParameterInfo = named("alpha", "in [0, 1e4]; smooth below 1e-8");
+    pub(crate) const ANY_ALPHA_X: ParameterInfo =
+        named("alpha_x", "in [0, 1e4]; smooth where both are below 1e-8");
+    pub(crate) const ANY_ALPHA_Y: ParameterInfo =
+        named("alpha_y", "in [0, 1e4]; smooth where both are below 1e-8");
     pub(crate) const DISTRIBUTION: ParameterInfo =
         named("distribution", "GGX, Beckmann (exact or Walter's fit)");
+    pub(crate) const UNIT_ALPHA: ParameterInfo = named("alpha", "in [1e-8, 1]");
     pub(crate) const TABULATED_ALPHA: ParameterInfo =
         named("alpha", "in [1e-8, 1]; Beckmann height-correlated only");
     pub(crate) const MASKING: ParameterInfo = named("masking", "height-correlated, separable");
@@ -132,6 +139,8 @@ pub(crate) mod parameter {
 /// A test of `etendue-audit` compares it with the sources, so that a new model cannot be forgotten.
 pub const MODELS: &[ModelInfo] = &[
     smooth::absorbing_slab::INFO,
+    layered::any_coupled::INFO,
+    layered::any_plastic::INFO,
     phong::ashikhmin_shirley::INFO,
     phong::ashikhmin_shirley_diffuse::INFO,
     phong::ashikhmin_shirley_specular::INFO,
@@ -144,6 +153,7 @@ pub const MODELS: &[ModelInfo] = &[
     diffuse::eon::INFO,
     diffuse::eon::INFO_APPROXIMATE,
     rough::kulla_conty::INFO,
+    rough::kulla_conty_dielectric::INFO,
     diffuse::lambert::INFO,
     layered::layered_fresnel::INFO,
     layered::layered_linear::INFO,

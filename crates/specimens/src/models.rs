@@ -1,16 +1,16 @@
 //! The list of models.
 
 use etendue_brdf::{
-    AbsorbingSlab, Alpha, AshikhminShirley, AshikhminShirleyDiffuse, AshikhminShirleySampling,
-    AshikhminShirleySpecular, BeckmannLambda, Blend, Bsdf, Burley, ComplexIor, Conductor, Coupled,
-    CoupledInterface, Dielectric, DiffuseTransmitter, Distribution, Eon, EonAlbedo, EonSampling,
-    Exponent, InternalReflectance, InternalScattering, Ior, KullaContyConductor, Lambert,
-    LayeredFresnel, LayeredLinear, Mask, Masking, Microfacets, Null, Opacity, OpticalDepth,
-    OrenNayar, OrenNayarFujii, OrenNayarQualitative, ParameterError, Phong, Plastic,
-    PlasticInterface, Principled, PrincipledParameters, PrincipledThin, PrincipledThinParameters,
-    Reflectance, RoughConductor, RoughCoupled, RoughDielectric, RoughPlastic, Roughness, Sigma,
-    SmoothConductor, SmoothDielectric, ThinDielectric, TransmittanceTable, TurquinConductor,
-    TwoSided,
+    AbsorbingSlab, Alpha, AnyCoupled, AnyPlastic, AshikhminShirley, AshikhminShirleyDiffuse,
+    AshikhminShirleySampling, AshikhminShirleySpecular, BeckmannLambda, Blend, Bsdf, Burley,
+    ComplexIor, Conductor, Coupled, CoupledInterface, Dielectric, DiffuseTransmitter, Distribution,
+    Eon, EonAlbedo, EonSampling, Exponent, InternalReflectance, InternalScattering, Ior,
+    KullaContyConductor, KullaContyDielectric, Lambert, LayeredFresnel, LayeredLinear, Mask,
+    Masking, Microfacets, Null, Opacity, OpticalDepth, OrenNayar, OrenNayarFujii,
+    OrenNayarQualitative, ParameterError, Phong, Plastic, PlasticInterface, PlasticSurface,
+    Principled, PrincipledParameters, PrincipledThin, PrincipledThinParameters, Reflectance,
+    RoughConductor, RoughCoupled, RoughDielectric, RoughPlastic, Roughness, Sigma, SmoothConductor,
+    SmoothDielectric, ThinDielectric, TransmittanceTable, TurquinConductor, TwoSided,
 };
 
 use etendue_math::{Real, Spectrum};
@@ -81,6 +81,8 @@ macro_rules! models {
 
 models! {
     AbsorbingSlab "absorbing-slab" |p| AbsorbingSlab::new(ior(p)?, OpticalDepth::new(C::splat(p.number(0.5)))?);
+    AnyCoupled "any-coupled" |p| AnyCoupled::new(CoupledInterface::schlick(reflectance::<C>(p, 0.04)?), distribution(p), [number(p, 0.25), number(p, 0.4)], masking(p), reflectance(p, 0.6)?)?;
+    AnyPlastic "any-plastic" |p| AnyPlastic::new(&PlasticSurface::new(ior(p)?, distribution(p), number(p, 0.0), masking(p), internal(p))?, reflectance::<C>(p, 0.6)?, scattering(p));
     AshikhminShirley "ashikhmin-shirley" |p| AshikhminShirley::new(exponent(p, 100.0)?, exponent(p, 10.0)?, reflectance::<C>(p, 0.2)?, reflectance(p, 0.6)?).with_sampling(p.choice([AshikhminShirleySampling::Mixture, AshikhminShirleySampling::Specular]));
     AshikhminShirleyDiffuse "ashikhmin-shirley-diffuse" |p| AshikhminShirleyDiffuse::new(reflectance::<C>(p, 0.2)?, reflectance(p, 0.6)?);
     AshikhminShirleySpecular "ashikhmin-shirley-specular" |p| AshikhminShirleySpecular::new(exponent(p, 100.0)?, exponent(p, 10.0)?, reflectance::<C>(p, 0.2)?);
@@ -93,6 +95,7 @@ models! {
     Eon "eon" |p| Eon::new(reflectance::<C>(p, 0.6)?, roughness(p)?).with_sampling(p.choice([EonSampling::Cosine, EonSampling::Cltc]));
     EonApproximate "eon-approx" |p| Eon::new(reflectance::<C>(p, 0.6)?, roughness(p)?).with_albedo(EonAlbedo::Approximate).with_sampling(p.choice([EonSampling::Cltc, EonSampling::Cosine]));
     KullaContyConductor "kulla-conty-conductor" |p| KullaContyConductor::new(metal::<C>(p)?, round_facets(p)?)?;
+    KullaContyDielectric "kulla-conty-dielectric" |p| KullaContyDielectric::<C>::new(ior(p)?, round_facets(p)?)?;
     Lambert "lambert" |p| Lambert::new(reflectance::<C>(p, 0.6)?);
     LayeredFresnel "layered-fresnel" |p| LayeredFresnel::new(reflectance::<C>(p, 0.04)?, reflectance(p, 0.6)?);
     LayeredLinear "layered-linear" |p| LayeredLinear::new(reflectance::<C>(p, 0.6)?, reflectance(p, 0.1)?)?;

@@ -1,9 +1,9 @@
 //! A base under an interface.
 
 use etendue_brdf::{
-    Coupled, CoupledInterface, Distribution, InternalReflectance, InternalScattering,
-    LayeredFresnel, LayeredLinear, Masking, Plastic, PlasticInterface, RoughCoupled, RoughPlastic,
-    TransmittanceTable,
+    AnyCoupled, AnyPlastic, Coupled, CoupledInterface, Distribution, InternalReflectance,
+    InternalScattering, LayeredFresnel, LayeredLinear, Masking, Plastic, PlasticInterface,
+    PlasticSurface, RoughCoupled, RoughPlastic, TransmittanceTable,
 };
 
 use super::parameters::{BECKMANN, alpha, facets, ior, on_surfaces, reflectance, valid};
@@ -56,6 +56,29 @@ pub(super) fn rough_plastic<T: Scalar>() -> Vec<Case<T>> {
         case(1.0, 1.5, BECKMANN, 0.3, InternalScattering::Linear),
         case(1.0, 2.4, Distribution::Ggx, 1.0, InternalScattering::NonLinear),
     ]
+}
+
+pub(super) fn any_plastic<T: Scalar>() -> Vec<Case<T>> {
+    let case = |a: f64| {
+        let (eta, width) = (ior::<T>(1.5), shared::<T>(a));
+        let (masking, internal) = (Masking::HeightCorrelated, InternalReflectance::Exact);
+        let surface = PlasticSurface::new(eta, Distribution::Ggx, width, masking, internal);
+        let surface = Box::leak(Box::new(valid(surface)));
+        let model = AnyPlastic::new(surface, reflectance::<T>(0.5), InternalScattering::NonLinear);
+        Case::new(format!("ggx α {a}, η 1.5, albedo 0.5"), model)
+    };
+    vec![case(0.0), case(0.3)]
+}
+
+pub(super) fn any_coupled<T: Scalar>() -> Vec<Case<T>> {
+    let case = |a: f64| {
+        let ceramic = CoupledInterface::schlick(reflectance::<T>(0.04));
+        let (widths, masking) = ([shared::<T>(a); 2], Masking::HeightCorrelated);
+        let rm = reflectance::<T>(0.7);
+        let model = AnyCoupled::new(ceramic, Distribution::Ggx, widths, masking, rm);
+        Case::new(format!("ggx α {a}, Schlick R0 0.04, rm 0.7"), valid(model))
+    };
+    vec![case(0.0), case(0.3)]
 }
 
 pub(super) fn layered_linear<T: Scalar>() -> Vec<Case<T>> {

@@ -2,8 +2,9 @@
 
 use etendue_brdf::microfacet::{AllNormals, BoundedCaps, NormalSampling, ProjectedDisk};
 use etendue_brdf::{
-    Bsdf, ComplexIor, Conductor, Dielectric, Distribution, KullaContyConductor, Masking,
-    Microfacets, ParameterError, RoughConductor, RoughDielectric, TurquinConductor,
+    Bsdf, ComplexIor, Conductor, Dielectric, Distribution, KullaContyConductor,
+    KullaContyDielectric, Masking, Microfacets, ParameterError, RoughConductor, RoughDielectric,
+    TurquinConductor,
 };
 
 use super::parameters::{
@@ -126,6 +127,24 @@ pub(super) fn rough_dielectric<T: Scalar>() -> Vec<Case<T>> {
         );
     }
     cases
+}
+
+pub(super) fn kulla_conty_dielectric<T: Scalar>() -> Vec<Case<T>> {
+    let case = |distribution, a: f64, masking, eta: f64| {
+        let surface = facets::<T>(distribution, [a; 2], masking);
+        let model = valid(KullaContyDielectric::<T>::new(ior::<T>(eta), surface));
+        Case::new(format!("{distribution:?} α {a}, {masking:?}, η {eta}"), model)
+            .of_width(width::<T>(a))
+    };
+    let (ggx, correlated) = (Distribution::Ggx, Masking::HeightCorrelated);
+    vec![
+        case(ggx, 2e-8, correlated, 1.5),
+        case(ggx, 0.3, correlated, 1.5),
+        case(ggx, 1.0, correlated, 1.5),
+        case(ggx, 0.4, correlated, 0.4),
+        case(ggx, 0.7, Masking::Separable, 2.4),
+        case(BECKMANN, 0.6, correlated, 1.33),
+    ]
 }
 
 pub(super) fn dielectric<T: Scalar>() -> Vec<Case<T>> {

@@ -356,6 +356,18 @@ mod tests {
     }
 
     #[test]
+    fn no_roughness_may_have_either_sign() {
+        let [none, minus] = [0.0, -0.0].map(|r| model(0.7, r).with_albedo(EonAlbedo::Approximate));
+        for z in [1.0, 0.5, 5e-29, f64::MIN_POSITIVE] {
+            let albedo = minus.albedo(viewer(z)).unwrap();
+            assert!(
+                albedo == none.albedo(viewer(z)).unwrap() && albedo.is_finite(),
+                "{z} {albedo}"
+            );
+        }
+    }
+
+    #[test]
     fn without_roughness_it_is_lamberts() {
         let (wo, wi) = (DVec3::new(0.6, 0.0, 0.8), DVec3::new(0.0, 0.8, 0.6));
         assert_eq!(model(1.0, 0.0).eval(wo, wi), f64::FRAC_1_PI);

@@ -53,8 +53,7 @@ impl<C: Spectrum> CoupledInterface<C> {
     pub fn dielectric(eta: Ior<C::Real>) -> Result<Self, ParameterError> {
         let eta = eta.value();
         if eta < C::Real::ONE {
-            let value = eta.to_f64();
-            return Err(ParameterError { parameter: "eta", value, domain: "in [1, 1e4]" });
+            return Err(ParameterError::number("eta", eta, "in [1, 1e4]"));
         }
         let normalisation = C::Real::FRAC_1_PI / dielectric_average_transmittance(eta);
         Ok(Self { fresnel: Fresnel::Dielectric { eta, normalisation } })

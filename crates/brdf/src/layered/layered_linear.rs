@@ -3,6 +3,7 @@
 use etendue_math::{Real, Spectrum};
 
 use super::mirror_over_matte::{self, MirrorOverMatte};
+use crate::param::at_most_all_together;
 use crate::registry::{Albedo, Energy, ModelInfo, Reciprocity, parameter};
 use crate::{Bsdf, BsdfReal, BsdfVec, Lobes, ParameterError, Reflectance, Sample};
 
@@ -37,13 +38,7 @@ impl<C: Spectrum> LayeredLinear<C> {
     /// [`ParameterError`] where a channel of the sum exceeds 1.
     pub fn new(rd: Reflectance<C>, rs: Reflectance<C>) -> Result<Self, ParameterError> {
         let (matte, mirror) = (rd.value(), rs.value());
-        let sum = matte + mirror;
-        for i in 0..C::CHANNELS {
-            if sum.channel(i) > C::Real::ONE {
-                let value = sum.channel(i).to_f64();
-                return Err(ParameterError { parameter: "rd + rs", value, domain: "at most 1" });
-            }
-        }
+        at_most_all_together("rd + rs", rd, rs)?;
         Ok(Self { matte, mirror })
     }
 }

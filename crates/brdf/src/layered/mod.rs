@@ -1,5 +1,7 @@
 //! A base under an interface.
 
+pub(crate) mod any_coupled;
+pub(crate) mod any_plastic;
 pub(crate) mod coupled;
 mod coupled_interface;
 mod internal_scattering;
@@ -12,6 +14,8 @@ pub(crate) mod rough_plastic;
 mod stochastic;
 mod transmittance_table;
 
+pub use any_coupled::AnyCoupled;
+pub use any_plastic::{AnyPlastic, PlasticSurface};
 pub use coupled::Coupled;
 pub use coupled_interface::CoupledInterface;
 pub use internal_scattering::{InternalReflectance, InternalScattering};

@@ -26,7 +26,7 @@ use crate::{Bsdf, BsdfReal, BsdfVec, Lobes, Microfacets, Reflectance, Sample};
 ///   (all at R0 = 0; measured over a grid of α, angles and indices).
 /// * Sampling: `u_lobe` chooses visible normals with probability `F / (F + Rm (1 − F))` of the means at θo, else
 ///   cosine-weighted; the density is that of the mixture. `None` from below.
-/// * The smooth limit is [`Coupled`](crate::Coupled).
+/// * The smooth limit is [`Coupled`](crate::Coupled), which [`AnyCoupled`](crate::AnyCoupled) chooses.
 ///
 /// # Precision
 /// A few ulp times the condition of the problem.

@@ -28,6 +28,7 @@ use crate::{
 /// * Sampling: `u_lobe` chooses visible normals with probability
 ///   `(1 − T) s / ((1 − T) s + T (1 − s))`, `s = mean(ks) / (mean(ks) + mean(kd))`, else
 ///   cosine-weighted; the density is that of the mixture. `None` from below.
+/// * The smooth limit is [`Plastic`](crate::Plastic), which [`AnyPlastic`](crate::AnyPlastic) chooses.
 ///
 /// # Precision
 /// A few ulp of the formula with the table's T.

@@ -1,30 +1,32 @@
 //! How much light a rough dielectric interface lets through, tabulated over the angle.
 
+use etendue_math::Real;
 use etendue_math::quadrature::gauss_legendre;
-use etendue_math::{Real, Vec3, Vector3};
 
-use crate::direction::reflect_about;
-use crate::fresnel::{dielectric, dielectric_transmittance, refract_about};
+use crate::microfacet::InterfaceAlbedo;
 use crate::{Alpha, Distribution, InternalReflectance, Ior, Masking, Microfacets};
 
 /// Nodes of the table, evenly spaced in `cos θ` from 0 to 1.
 const ENTRIES: usize = 64;
-/// Nodes per dimension of the quadrature over visible normals.
+/// Nodes of the average over the hemisphere, on either side of the critical angle.
 const NODES: usize = 32;
 
 /// Directional transmittance of a rough dielectric interface and its average internal reflectance.
 ///
 /// ```text
-/// T(wo)  = ∫ D_v(h) (1 − F(wo·h)) G2(wo, wt)/G1(wo) dh,  wt refracted at h, below the surface
-/// R(wo)  = ∫ D_v(h) F(wo·h) G2(wo, wr)/G1(wo) dh,        wr reflected at h, above the surface
-/// F_in   = 2 ∫₀¹ R(μ) μ dμ from the side of the base
+/// T(μ)  of light from above,  F_in = 2 ∫₀¹ R(μ) μ dμ of light from the side of the base
 /// ```
 ///
-/// T is tabulated at 64 cosines and interpolated linearly. Computed once per material (some 10⁵
-/// facet evaluations, tens of milliseconds); a [`RoughPlastic`](crate::RoughPlastic) borrows it.
+/// with R and T of [`InterfaceAlbedo`]. T is tabulated at 64 cosines and interpolated linearly. Computed once
+/// per material; a [`RoughPlastic`](crate::RoughPlastic) borrows it.
 ///
 /// # Precision
-/// Entries within 1e-4 for α ≥ 0.1: 32 × 32 Gauss–Legendre nodes over the uniforms of the visible normals.
+/// For α ≥ 0.1 entries within 1e-5 where the base is the denser medium, and F_in within 5e-4. The table is
+/// computed in `f64` and rounded once, in either precision.
+///
+/// # Cost
+/// 128 directions of 512 facets: 4 to 8 ms for GGX and 25 ms for Beckmann facets on a desktop processor. One without
+/// floating point computes some 10⁷ double operations in software, estimated at a minute on a Cortex-M0 at 48 MHz.
 ///
 /// # Source
 /// Mitsuba's roughplastic (W. Jakob), `eval_transmittance` and `eval_reflectance`.
@@ -46,41 +48,30 @@ impl<T: Real> TransmittanceTable<T> {
         internal: InternalReflectance,
     ) -> Self {
         let facets = Microfacets::new(distribution, alpha, alpha, masking);
-        let eta = eta.value();
-        let rule = gauss_legendre::<T, NODES>();
-        let mut transmittance = [T::ZERO; ENTRIES];
-        for (i, entry) in transmittance.iter_mut().enumerate() {
-            *entry = mean_over_facets(&facets, &rule, direction(node::<T>(i)), |wo: Vec3<T>, h| {
-                let wt = refract_about(wo, h, eta).filter(|w| w.z() < T::ZERO)?;
-                Some(dielectric_transmittance(wo.dot(h), eta) * facets.weight(wo, wt))
-            });
-        }
-        let inverse = T::ONE / eta;
-        let reflectance = |mu: T| {
-            mean_over_facets(&facets, &rule, direction(mu), |wo: Vec3<T>, h| {
-                let wr = reflect_about(wo, h);
-                (wr.z() > T::ZERO).then(|| dielectric(wo.dot(h), inverse) * facets.weight(wo, wr))
-            })
-        };
+        let albedo = InterfaceAlbedo::new(&facets.in_double());
+        let index = eta.value().to_f64();
+        let transmittance = core::array::from_fn(|i| T::lit(albedo.at(index, node(i)).transmitted));
+        let reflectance = |mu: f64| albedo.at(1.0 / index, mu).reflected;
         let internal = match internal {
             InternalReflectance::Exact => {
                 // F has a root's kink at the critical cosine: μ = m t below it, m + (1 − m) t² above.
-                let m = (T::ONE - inverse * inverse).safe_sqrt();
-                rule.iter()
+                let m = (1.0 - 1.0 / (index * index)).safe_sqrt();
+                gauss_legendre::<f64, NODES>()
+                    .iter()
                     .map(|&(t, w)| {
-                        let (below, above) = (m * t, m + (T::ONE - m) * t * t);
-                        let slope = T::TWO * (T::ONE - m) * t;
-                        w * T::TWO
+                        let (below, above) = (m * t, m + (1.0 - m) * t * t);
+                        let slope = 2.0 * (1.0 - m) * t;
+                        2.0 * w
                             * (m * below * reflectance(below) + slope * above * reflectance(above))
                     })
                     .sum()
             }
             InternalReflectance::Mitsuba => {
-                let sum: T = (0..ENTRIES).map(|i| node::<T>(i) * reflectance(node(i))).sum();
-                T::TWO * sum / T::lit(ENTRIES as f64)
+                let sum: f64 = (0..ENTRIES).map(|i| node(i) * reflectance(node(i))).sum();
+                2.0 * sum / ENTRIES as f64
             }
         };
-        Self { eta, facets, transmittance, internal }
+        Self { eta: eta.value(), facets, transmittance, internal: T::lit(internal) }
     }
 
     /// Relative index of the base.
@@ -112,34 +103,14 @@ impl<T: Real> TransmittanceTable<T> {
 }
 
 /// Cosine of entry `i`; the first is kept off the horizon, where no facet is visible.
-fn node<T: Real>(i: usize) -> T {
-    T::lit((i as f64 / (ENTRIES - 1) as f64).max(1e-6))
-}
-
-fn direction<T: Real>(cos: T) -> Vec3<T> {
-    Vec3::<T>::new(((T::ONE - cos) * (T::ONE + cos)).safe_sqrt(), T::ZERO, cos)
-}
-
-/// Mean of a function over the normals visible from `wo`; `None` counts as 0.
-fn mean_over_facets<T: Real>(
-    facets: &Microfacets<T>,
-    rule: &[(T, T); NODES],
-    wo: Vec3<T>,
-    value: impl Fn(Vec3<T>, Vec3<T>) -> Option<T>,
-) -> T {
-    let mut sum = T::ZERO;
-    for &(x, wx) in rule {
-        for &(y, wy) in rule {
-            let h = facets.sample_visible_normal(wo, [x, y]);
-            sum += wx * wy * h.and_then(|h| value(wo, h)).unwrap_or(T::ZERO);
-        }
-    }
-    sum
+fn node(i: usize) -> f64 {
+    (i as f64 / (ENTRIES - 1) as f64).max(1e-6)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::fresnel::dielectric_transmittance;
 
     fn table(alpha: f64, internal: InternalReflectance) -> TransmittanceTable<f64> {
         let (eta, alpha) = (Ior::new(1.5).unwrap(), Alpha::new(alpha).unwrap());
@@ -150,7 +121,7 @@ mod tests {
     fn a_nearly_smooth_interface_transmits_what_a_smooth_one_does() {
         let table = table(1e-4, InternalReflectance::Exact);
         for i in 8..ENTRIES {
-            let cos: f64 = node(i);
+            let cos = node(i);
             // Within the lobe of width 1e-4 the Fresnel term is constant to 1e-3.
             assert!((table.transmittance(cos) - dielectric_transmittance(cos, 1.5)).abs() < 1e-3);
         }

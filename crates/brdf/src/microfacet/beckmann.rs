@@ -174,18 +174,32 @@ pub fn sample_visible_normal<T: Real>(
     alpha_y: T,
     u: [T; 2],
 ) -> Option<Vec3<T>> {
+    visible_strip(wo, alpha_x, alpha_y, u[0])?(u[1])
+}
+
+/// The normals of [`sample_visible_normal`] with the same `u[0]`, as a function of `u[1]`: Newton's method
+/// runs once for all of them.
+#[inline(always)]
+pub(crate) fn visible_strip<T: Real>(
+    wo: Vec3<T>,
+    alpha_x: T,
+    alpha_y: T,
+    u: T,
+) -> Option<impl Fn(T) -> Option<Vec3<T>>> {
     let v = Vec3::<T>::new(alpha_x * wo.x(), alpha_y * wo.y(), wo.z()).try_normalize()?;
     let s = (v.x() * v.x() + v.y() * v.y()).sqrt();
     let (cos_phi, sin_phi) = if s > T::ZERO { (v.x() / s, v.y() / s) } else { (T::ONE, T::ZERO) };
     let limit = T::lit(if T::SIGNIFICAND_BITS > 24 { 6.0 } else { 4.0 });
-    let along = slope_along(v.z(), s, u[0], limit);
-    let across = erf_inv(T::TWO * u[1] - T::ONE).max(-limit).min(limit);
-    Vec3::<T>::new(
-        -alpha_x * (cos_phi * along - sin_phi * across),
-        -alpha_y * (sin_phi * along + cos_phi * across),
-        T::ONE,
-    )
-    .try_normalize()
+    let along = slope_along(v.z(), s, u, limit);
+    Some(move |u: T| {
+        let across = erf_inv(T::TWO * u - T::ONE).max(-limit).min(limit);
+        Vec3::<T>::new(
+            -alpha_x * (cos_phi * along - sin_phi * across),
+            -alpha_y * (sin_phi * along + cos_phi * across),
+            T::ONE,
+        )
+        .try_normalize()
+    })
 }
 
 /// Solves `P(p) = u` for the slope p in `[−limit, min(limit, z/s)]`.

@@ -15,6 +15,7 @@
 //! | visibility of GGX | [`Microfacets::visibility`] | [`ggx::visibility_hammon`], up to 29 % dark | |
 //! | Smith's Λ of Beckmann | [`beckmann::lambda`] | [`beckmann::projected_area_walter`], 0.35 % | |
 //! | energy that single scattering loses | [`facet_loss`] | [`FacetLoss`], 1e-3 (GGX) | [`walk`] |
+//! | the same between two dielectrics | [`InterfaceAlbedo`] | [`InterfaceLoss`], interpolated | [`walk`] |
 //!
 //! How normals are drawn is a choice of its own: [`NormalSampling`].
 
@@ -25,7 +26,8 @@ pub mod sampling;
 mod smith;
 pub mod walk;
 
-pub use albedo::{FacetLoss, LossTable, facet_loss};
+pub(crate) use albedo::isotropic_width;
+pub use albedo::{FacetLoss, InterfaceAlbedo, InterfaceFlux, InterfaceLoss, LossTable, facet_loss};
 pub use sampling::{AllNormals, BoundedCaps, NormalSampling, ProjectedDisk, VisibleNormals};
 pub use smith::{Masking, Microfacets};
 

@@ -44,6 +44,12 @@ impl<T: Real> Microfacets<T> {
         Self::new(Distribution::Ggx, alpha, alpha, Masking::HeightCorrelated)
     }
 
+    /// The same surface in double precision.
+    pub(crate) fn in_double(&self) -> Microfacets<f64> {
+        let [alpha_x, alpha_y] = self.widths().map(T::to_f64);
+        Microfacets { distribution: self.distribution, masking: self.masking, alpha_x, alpha_y }
+    }
+
     /// Distribution of the facets' normals.
     #[inline(always)]
     pub fn distribution(&self) -> Distribution {

@@ -5,8 +5,8 @@ use alloc::boxed::Box;
 use etendue_math::Spectrum;
 
 use crate::{
-    Bsdf, BsdfReal, BsdfVec, InternalScattering, Lobes, Reflectance, RoughPlastic, Sample,
-    TransmittanceTable,
+    AnyPlastic, Bsdf, BsdfReal, BsdfVec, InternalScattering, Lobes, PlasticSurface, Reflectance,
+    Sample,
 };
 
 impl<B: Bsdf + ?Sized> Bsdf for Box<B> {
@@ -31,23 +31,23 @@ impl<B: Bsdf + ?Sized> Bsdf for Box<B> {
     }
 }
 
-/// A [`RoughPlastic`] together with the table it borrows.
-pub(super) struct OwnedRoughPlastic<C: Spectrum> {
-    pub(super) table: TransmittanceTable<C::Real>,
+/// A plastic together with the table it borrows.
+pub(super) struct OwnedPlastic<C: Spectrum> {
+    pub(super) surface: PlasticSurface<C::Real>,
     pub(super) diffuse: Reflectance<C>,
     pub(super) scattering: InternalScattering,
     pub(super) specular: Reflectance<C>,
 }
 
-impl<C: Spectrum> OwnedRoughPlastic<C> {
+impl<C: Spectrum> OwnedPlastic<C> {
     /// Building it anew costs a few products beside the evaluation that follows.
-    fn model(&self) -> RoughPlastic<'_, C> {
-        RoughPlastic::new(&self.table, self.diffuse, self.scattering)
+    fn model(&self) -> AnyPlastic<'_, C> {
+        AnyPlastic::new(&self.surface, self.diffuse, self.scattering)
             .with_specular_reflectance(self.specular)
     }
 }
 
-impl<C: Spectrum> Bsdf for OwnedRoughPlastic<C> {
+impl<C: Spectrum> Bsdf for OwnedPlastic<C> {
     type Color = C;
 
     fn lobes(&self) -> Lobes {
@@ -63,5 +63,8 @@ impl<C: Spectrum> Bsdf for OwnedRoughPlastic<C> {
         u: [BsdfReal<Self>; 2],
     ) -> Option<Sample<C>> {
         self.model().sample(wo, u_lobe, u)
+    }
+    fn albedo(&self, wo: BsdfVec<Self>) -> Option<C> {
+        self.model().albedo(wo)
     }
 }

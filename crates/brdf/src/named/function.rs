@@ -145,8 +145,7 @@ fn uniforms<T: Real>(reader: &Reader) -> Result<[T; 2], NamedError> {
     let xi = reader.numbers::<T, 2>("xi")?;
     for x in xi {
         if !(x >= T::ZERO && x < T::ONE) {
-            let (value, domain) = (x.to_f64(), "in [0, 1)");
-            let error = crate::ParameterError { parameter: "xi", value, domain };
+            let error = crate::ParameterError::number("xi", x, "in [0, 1)");
             return Err(NamedError::Domain { of: reader.of, error });
         }
     }

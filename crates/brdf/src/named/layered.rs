@@ -4,20 +4,24 @@ use alloc::boxed::Box;
 
 use etendue_math::Spectrum;
 
-use super::forward::OwnedRoughPlastic;
+use super::forward::OwnedPlastic;
 use super::{Built, Entry, NamedError, Reader};
 use crate::layered::{
-    coupled, layered_fresnel, layered_linear, plastic, rough_coupled, rough_plastic,
+    any_coupled, any_plastic, coupled, layered_fresnel, layered_linear, plastic, rough_coupled,
+    rough_plastic,
 };
 use crate::{
-    Alpha, Coupled, CoupledInterface, InternalReflectance, InternalScattering, LayeredFresnel,
-    LayeredLinear, Masking, Plastic, PlasticInterface, RoughCoupled, TransmittanceTable,
+    Alpha, AnyCoupled, Coupled, CoupledInterface, InternalReflectance, InternalScattering,
+    LayeredFresnel, LayeredLinear, Masking, Plastic, PlasticInterface, PlasticSurface,
+    RoughCoupled, TransmittanceTable,
 };
 
 const BETWEEN_MEDIA: &[&str] = &["ior_int", "ior_ext"];
 
-pub(super) fn entries<C: Spectrum>() -> [Entry<C>; 6] {
+pub(super) fn entries<C: Spectrum>() -> [Entry<C>; 8] {
     [
+        Entry { info: &any_coupled::INFO, synonyms: &["eta", "alpha"], build: any_coupled },
+        Entry { info: &any_plastic::INFO, synonyms: BETWEEN_MEDIA, build: any_plastic },
         Entry { info: &coupled::INFO, synonyms: &["eta"], build: coupled },
         Entry { info: &layered_fresnel::INFO, synonyms: &[], build: layered_fresnel },
         Entry { info: &layered_linear::INFO, synonyms: &[], build: layered_linear },
@@ -44,20 +48,29 @@ fn plastic<C: Spectrum>(reader: &Reader) -> Built<C> {
     Ok(Box::new(model.with_specular_reflectance(reader.factor("specular_reflectance")?)))
 }
 
-fn rough_plastic<C: Spectrum>(reader: &Reader) -> Built<C> {
-    let alpha = reader.checked("alpha", Alpha::new(reader.number("alpha")?))?;
-    Ok(Box::new(OwnedRoughPlastic::<C> {
-        table: TransmittanceTable::new(
-            reader.ior()?,
-            reader.distribution()?,
-            alpha,
-            reader.masking(Masking::HeightCorrelated)?,
-            internal(reader)?,
-        ),
+/// What every plastic has beside its surface.
+fn owned_plastic<C: Spectrum>(reader: &Reader, surface: PlasticSurface<C::Real>) -> Built<C> {
+    Ok(Box::new(OwnedPlastic::<C> {
+        surface,
         diffuse: reader.reflectance("reflectance")?,
         scattering: scattering(reader)?,
         specular: reader.factor("specular_reflectance")?,
     }))
+}
+
+fn rough_plastic<C: Spectrum>(reader: &Reader) -> Built<C> {
+    let alpha = reader.checked("alpha", Alpha::new(reader.number("alpha")?))?;
+    let masking = reader.masking(Masking::HeightCorrelated)?;
+    let (eta, distribution, internal) = (reader.ior()?, reader.distribution()?, internal(reader)?);
+    let table = TransmittanceTable::new(eta, distribution, alpha, masking, internal);
+    owned_plastic(reader, PlasticSurface::Rough(table))
+}
+
+fn any_plastic<C: Spectrum>(reader: &Reader) -> Built<C> {
+    let (alpha, masking) = (reader.number("alpha")?, reader.masking(Masking::HeightCorrelated)?);
+    let (eta, distribution, internal) = (reader.ior()?, reader.distribution()?, internal(reader)?);
+    let surface = PlasticSurface::new(eta, distribution, alpha, masking, internal);
+    owned_plastic(reader, reader.constructed(surface)?)
 }
 
 /// Schlick's reflectance from `r0`, or the exact one from `eta`.
@@ -76,6 +89,14 @@ fn rough_coupled<C: Spectrum>(reader: &Reader) -> Built<C> {
     let facets = reader.microfacets(Masking::HeightCorrelated)?;
     let interface = coupled_interface(reader)?;
     Ok(Box::new(RoughCoupled::<C>::new(interface, facets, reader.reflectance("rm")?)))
+}
+
+fn any_coupled<C: Spectrum>(reader: &Reader) -> Built<C> {
+    let masking = reader.masking(Masking::HeightCorrelated)?;
+    let (interface, rm) = (coupled_interface(reader)?, reader.reflectance("rm")?);
+    let (distribution, widths) = (reader.distribution()?, reader.widths()?);
+    let model = AnyCoupled::<C>::new(interface, distribution, widths, masking, rm);
+    Ok(Box::new(reader.constructed(model)?))
 }
 
 fn layered_fresnel<C: Spectrum>(reader: &Reader) -> Built<C> {

@@ -50,8 +50,7 @@ impl<'a> Reader<'a> {
         outcome: Result<P, ParameterError>,
     ) -> Result<P, NamedError> {
         let of = self.of;
-        outcome
-            .map_err(|e| NamedError::Domain { of, error: ParameterError { parameter: name, ..e } })
+        outcome.map_err(|e| NamedError::Domain { of, error: e.named(name) })
     }
 
     /// Attaches this model to what a constructor has to say about several parameters together.
@@ -107,7 +106,7 @@ impl<'a> Reader<'a> {
         is_valid: impl Fn(T) -> bool,
     ) -> Result<T, NamedError> {
         let x = self.number::<T>(name)?;
-        let error = || ParameterError { parameter: name, value: x.to_f64(), domain };
+        let error = || ParameterError::number(name, x, domain);
         self.checked(name, if is_valid(x) { Ok(x) } else { Err(error()) })
     }
 

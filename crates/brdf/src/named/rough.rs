@@ -6,23 +6,29 @@ use etendue_math::Spectrum;
 
 use super::{Built, Entry, Reader};
 use crate::rough::{
-    conductor, dielectric, kulla_conty, rough_conductor, rough_dielectric, turquin,
+    conductor, dielectric, kulla_conty, kulla_conty_dielectric, rough_conductor, rough_dielectric,
+    turquin,
 };
 use crate::{
-    Conductor, Dielectric, KullaContyConductor, Masking, RoughConductor, RoughDielectric,
-    TurquinConductor,
+    Conductor, Dielectric, KullaContyConductor, KullaContyDielectric, Masking, RoughConductor,
+    RoughDielectric, TurquinConductor,
 };
 
 const ISOTROPIC: &[&str] = &["alpha"];
 const BETWEEN_MEDIA: &[&str] = &["alpha", "ior_int", "ior_ext"];
 
-pub(super) fn entries<C: Spectrum>() -> [Entry<C>; 6] {
+pub(super) fn entries<C: Spectrum>() -> [Entry<C>; 7] {
     [
         Entry { info: &conductor::INFO, synonyms: ISOTROPIC, build: conductor },
         Entry { info: &dielectric::INFO, synonyms: BETWEEN_MEDIA, build: dielectric },
         Entry { info: &rough_conductor::INFO, synonyms: ISOTROPIC, build: rough_conductor },
         Entry { info: &rough_dielectric::INFO, synonyms: BETWEEN_MEDIA, build: rough_dielectric },
         Entry { info: &kulla_conty::INFO, synonyms: &[], build: kulla_conty },
+        Entry {
+            info: &kulla_conty_dielectric::INFO,
+            synonyms: &["ior_int", "ior_ext"],
+            build: kulla_conty_dielectric,
+        },
         Entry { info: &turquin::INFO, synonyms: &[], build: turquin },
     ]
 }
@@ -46,6 +52,14 @@ fn kulla_conty<C: Spectrum>(reader: &Reader) -> Built<C> {
     let model = KullaContyConductor::new(reader.complex_ior()?, facets);
     let model = reader.constructed(model)?;
     Ok(Box::new(model.with_specular_reflectance(reader.factor("specular_reflectance")?)))
+}
+
+fn kulla_conty_dielectric<C: Spectrum>(reader: &Reader) -> Built<C> {
+    let (eta, facets) = (reader.ior()?, reader.microfacets(Masking::HeightCorrelated)?);
+    let model: KullaContyDielectric<C> =
+        reader.constructed(KullaContyDielectric::new(eta, facets))?;
+    let (ks, kt) = reader.factors()?;
+    Ok(Box::new(model.with_factors(ks, kt)))
 }
 
 fn turquin<C: Spectrum>(reader: &Reader) -> Built<C> {

@@ -2,6 +2,7 @@
 
 mod clearcoat;
 mod diffuse;
+mod domains;
 mod facets;
 mod fresnel;
 mod gtr1;

@@ -2,8 +2,8 @@
 
 use etendue_math::{Real, Spectrum};
 
-use crate::param::within;
-use crate::{Ior, ParameterError, Reflectance};
+use super::domains::{self, unit};
+use crate::ParameterError;
 
 /// Parameters of [`Principled`](crate::Principled), with the names and defaults of Mitsuba 3.
 ///
@@ -92,10 +92,7 @@ impl<C: Spectrum> PrincipledParameters<C> {
 
     /// Checks every domain.
     pub(super) fn check(&self) -> Result<(), ParameterError> {
-        let parameter = "base_color";
-        Reflectance::new(self.base_color).map_err(|e| ParameterError { parameter, ..e })?;
-        Ior::new(self.eta)?;
-        for (name, x) in [
+        let shares = [
             ("roughness", self.roughness),
             ("anisotropic", self.anisotropic),
             ("metallic", self.metallic),
@@ -106,27 +103,18 @@ impl<C: Spectrum> PrincipledParameters<C> {
             ("flatness", self.flatness),
             ("clearcoat", self.clearcoat),
             ("clearcoat_gloss", self.clearcoat_gloss),
-        ] {
-            unit(name, x)?;
-        }
-        rate("diffuse_reflectance_sampling_rate", self.diffuse_reflectance_sampling_rate)?;
-        rate("main_specular_sampling_rate", self.main_specular_sampling_rate)?;
-        rate("clearcoat_sampling_rate", self.clearcoat_sampling_rate)
+        ];
+        let rates = [
+            ("diffuse_reflectance_sampling_rate", self.diffuse_reflectance_sampling_rate),
+            ("main_specular_sampling_rate", self.main_specular_sampling_rate),
+            ("clearcoat_sampling_rate", self.clearcoat_sampling_rate),
+        ];
+        domains::check(self.base_color, self.eta, &shares, &rates)
     }
 }
 
 fn eta_of_specular<T: Real>(specular: T) -> T {
     T::TWO / (T::ONE - (T::lit(0.08) * specular).sqrt()) - T::ONE
-}
-
-/// Checks a number that must lie in `[0, 1]`.
-pub(super) fn unit<T: Real>(name: &'static str, x: T) -> Result<(), ParameterError> {
-    within(name, x, [0.0, 1.0], "in [0, 1]").map(|_| ())
-}
-
-/// Checks a sampling rate; the limit keeps sums of rates finite.
-pub(super) fn rate<T: Real>(name: &'static str, x: T) -> Result<(), ParameterError> {
-    within(name, x, [0.0, 1e6], "in [0, 1e6]").map(|_| ())
 }
 
 #[cfg(test)]

@@ -2,9 +2,9 @@
 
 use etendue_math::{Real, Spectrum};
 
-use super::solid_parameters::{rate, unit};
+use super::domains;
+use crate::ParameterError;
 use crate::param::within;
-use crate::{Ior, ParameterError, Reflectance};
 
 /// Parameters of [`PrincipledThin`](crate::PrincipledThin), with the names and defaults of Mitsuba 3.
 ///
@@ -66,11 +66,7 @@ impl<C: Spectrum> Default for PrincipledThinParameters<C> {
 impl<C: Spectrum> PrincipledThinParameters<C> {
     /// Checks every domain.
     pub(super) fn check(&self) -> Result<(), ParameterError> {
-        let parameter = "base_color";
-        Reflectance::new(self.base_color).map_err(|e| ParameterError { parameter, ..e })?;
-        Ior::new(self.eta)?;
-        within("diff_trans", self.diff_trans, [0.0, 2.0], "in [0, 2]")?;
-        for (name, x) in [
+        let shares = [
             ("roughness", self.roughness),
             ("anisotropic", self.anisotropic),
             ("spec_trans", self.spec_trans),
@@ -78,12 +74,14 @@ impl<C: Spectrum> PrincipledThinParameters<C> {
             ("sheen", self.sheen),
             ("sheen_tint", self.sheen_tint),
             ("flatness", self.flatness),
-        ] {
-            unit(name, x)?;
-        }
-        rate("specular_reflectance_sampling_rate", self.specular_reflectance_sampling_rate)?;
-        rate("specular_transmittance_sampling_rate", self.specular_transmittance_sampling_rate)?;
-        rate("diffuse_reflectance_sampling_rate", self.diffuse_reflectance_sampling_rate)?;
-        rate("diffuse_transmittance_sampling_rate", self.diffuse_transmittance_sampling_rate)
+        ];
+        let rates = [
+            ("specular_reflectance_sampling_rate", self.specular_reflectance_sampling_rate),
+            ("specular_transmittance_sampling_rate", self.specular_transmittance_sampling_rate),
+            ("diffuse_reflectance_sampling_rate", self.diffuse_reflectance_sampling_rate),
+            ("diffuse_transmittance_sampling_rate", self.diffuse_transmittance_sampling_rate),
+        ];
+        domains::check(self.base_color, self.eta, &shares, &rates)?;
+        within("diff_trans", self.diff_trans, [0.0, 2.0], "in [0, 2]").map(|_| ())
     }
 }

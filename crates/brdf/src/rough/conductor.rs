@@ -56,8 +56,7 @@ pub(crate) fn rough_widths<T: Real>(
     let least = T::lit(Alpha::<T>::RANGE[0]);
     for a in alpha {
         if !(a >= T::ZERO) {
-            let domain = "in [0, 1e4]";
-            return Err(ParameterError { parameter: "alpha", value: a.to_f64(), domain });
+            return Err(ParameterError::number("alpha", a, "in [0, 1e4]"));
         }
     }
     if alpha[0] < least && alpha[1] < least {
@@ -108,8 +107,8 @@ pub(crate) const INFO: ModelInfo = ModelInfo {
         parameter::COMPLEX_ETA,
         parameter::K,
         parameter::DISTRIBUTION,
-        parameter::ALPHA_X,
-        parameter::ALPHA_Y,
+        parameter::ANY_ALPHA_X,
+        parameter::ANY_ALPHA_Y,
         parameter::MASKING,
         parameter::KS,
     ],

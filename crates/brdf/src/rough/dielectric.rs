@@ -91,8 +91,8 @@ pub(crate) const INFO: ModelInfo = ModelInfo {
     parameters: &[
         parameter::ETA,
         parameter::DISTRIBUTION,
-        parameter::ALPHA_X,
-        parameter::ALPHA_Y,
+        parameter::ANY_ALPHA_X,
+        parameter::ANY_ALPHA_Y,
         parameter::MASKING,
         parameter::KS,
         parameter::KT,

@@ -3,6 +3,7 @@
 pub(crate) mod conductor;
 pub(crate) mod dielectric;
 pub(crate) mod kulla_conty;
+pub(crate) mod kulla_conty_dielectric;
 pub(crate) mod rough_conductor;
 pub(crate) mod rough_dielectric;
 pub(crate) mod turquin;
@@ -10,6 +11,7 @@ pub(crate) mod turquin;
 pub use conductor::Conductor;
 pub use dielectric::Dielectric;
 pub use kulla_conty::KullaContyConductor;
+pub use kulla_conty_dielectric::KullaContyDielectric;
 pub use rough_conductor::RoughConductor;
 pub use rough_dielectric::RoughDielectric;
 pub use turquin::TurquinConductor;

@@ -84,8 +84,8 @@ impl<C: Spectrum, S: NormalSampling<C::Real>> RoughConductor<C, S> {
         self,
     ) -> Result<RoughConductor<C, R>, ParameterError> {
         if !R::supports(self.facets.distribution()) {
-            let domain = "used with GGX facets (this one does not exist for Beckmann's)";
-            return Err(ParameterError { parameter: "sampling strategy", value: 0.0, domain });
+            let domain = "ggx for this way of drawing normals";
+            return Err(ParameterError::choice("distribution", "beckmann", domain));
         }
         let Self { ior, specular_reflectance, facets, .. } = self;
         Ok(RoughConductor { ior, specular_reflectance, facets, sampling: PhantomData })

@@ -56,7 +56,7 @@ impl<C: Spectrum> RoughDielectric<C> {
     pub fn new(eta: Ior<C::Real>, facets: Microfacets<C::Real>) -> Result<Self, ParameterError> {
         if eta.is_matched() {
             let domain = "different from 1 (use the pass-through model)";
-            return Err(ParameterError { parameter: "eta", value: 1.0, domain });
+            return Err(ParameterError::number("eta", eta.value(), domain));
         }
         Ok(Self {
             from_above: RelativeIndex::from_above(eta.value()),

@@ -1,9 +1,13 @@
 //! Directional albedo of rough surfaces, tabulated: what compensation of energy starts from.
 
 mod integral;
+mod interface;
+mod interface_loss;
 mod table;
 
 pub use integral::facet_loss;
+pub use interface::{InterfaceAlbedo, InterfaceFlux};
+pub use interface_loss::InterfaceLoss;
 pub use table::LossTable;
 
 use etendue_math::Real;
@@ -38,16 +42,16 @@ impl<T: Real> FacetLoss<T> {
                 Distribution::Beckmann { lambda: BeckmannLambda::Exact },
                 Masking::HeightCorrelated,
             ) => &LossTable::BECKMANN,
-            _ => {
-                let domain = "height-correlated and exact for Beckmann facets";
-                return Err(ParameterError { parameter: "masking", value: 0.0, domain });
+            (Distribution::Beckmann { lambda: BeckmannLambda::Walter }, _) => {
+                let domain = "ggx or beckmann, for which there are tables";
+                return Err(ParameterError::choice("distribution", "beckmann-walter", domain));
+            }
+            (Distribution::Beckmann { .. }, Masking::Separable) => {
+                let domain = "height-correlated for Beckmann facets";
+                return Err(ParameterError::choice("masking", "separable", domain));
             }
         };
-        let [alpha, other] = facets.widths();
-        if alpha != other || alpha > T::ONE {
-            let domain = "the same along both tangents and at most 1";
-            return Err(ParameterError { parameter: "alpha", value: other.to_f64(), domain });
-        }
+        let alpha = isotropic_width(facets)?;
         Ok(Self { row: table.row(alpha), alpha, average: table.average(alpha) })
     }
 
@@ -62,4 +66,14 @@ impl<T: Real> FacetLoss<T> {
     pub fn average(&self) -> T {
         self.average
     }
+}
+
+/// The one width, at most 1, of facets that tables over the angle alone can describe.
+pub(crate) fn isotropic_width<T: Real>(facets: &Microfacets<T>) -> Result<T, ParameterError> {
+    let [alpha, other] = facets.widths();
+    if alpha != other || alpha > T::ONE {
+        let domain = "the same along both tangents and at most 1";
+        return Err(ParameterError::number("alpha", other, domain));
+    }
+    Ok(alpha)
 }

@@ -46,7 +46,8 @@ impl LossTable {
             }
         }
         for j in 0..Self::AVERAGES {
-            table.average[j] = table.mean_of_row(grid(j, Self::AVERAGES)) as f32;
+            let alpha = grid(j, Self::AVERAGES);
+            table.average[j] = Self::mean_of(&table.row(alpha), alpha) as f32;
         }
         table
     }
@@ -55,11 +56,16 @@ impl LossTable {
     pub fn entry(distribution: Distribution, masking: Masking, i: usize, j: usize) -> f32 {
         // The limits α → 0 and μ → 0 are reached to the last digit of an f32 here.
         let width = grid::<f64>(i, Self::ENTRIES).max(1e-5);
-        let y = y_of_column(j as f64 / (Self::ENTRIES - 1) as f64).max(1e-8);
-        let cos = (y * width / (1.0 + width - y)).min(1.0);
+        let cos = Self::cosine(j, width);
         let facets =
             Alpha::new(width).map(|alpha| Microfacets::new(distribution, alpha, alpha, masking));
         facets.map_or(0.0, |facets| facet_loss(&facets, cos).max(0.0) as f32)
+    }
+
+    /// The cosine of column `j` in the row of a width.
+    pub(super) fn cosine(j: usize, width: f64) -> f64 {
+        let y = y_of_column(j as f64 / (Self::ENTRIES - 1) as f64).max(1e-8);
+        (y * width / (1.0 + width - y)).min(1.0)
     }
 
     /// The entries row by row, and the averages.
@@ -108,8 +114,7 @@ impl LossTable {
     }
 
     /// `2 ∫₀¹ l(μ) μ dμ` of the interpolated row, piece by piece in y.
-    fn mean_of_row(&self, alpha: f64) -> f64 {
-        let row = self.row::<f64>(alpha);
+    pub(super) fn mean_of(row: &[f64; Self::ENTRIES], alpha: f64) -> f64 {
         let last = (Self::ENTRIES - 1) as f64;
         if alpha == 0.0 {
             return 0.0;
@@ -125,7 +130,7 @@ impl LossTable {
                 let rest = alpha + (1.0 - y);
                 // μ = α y / (1 + α − y), dμ/dy = α (1 + α) / (1 + α − y)².
                 let (mu, slope) = (alpha * y / rest, alpha * (1.0 + alpha) / (rest * rest));
-                sum += weight / last * stretch * 2.0 * mu * slope * Self::look_up(&row, mu, alpha);
+                sum += weight / last * stretch * 2.0 * mu * slope * Self::look_up(row, mu, alpha);
             }
         }
         sum
@@ -182,7 +187,8 @@ mod tests {
                 assert!((got - want).abs() < 1e-7, "{distribution:?} {i} {j}: {got} {want}");
             }
             for j in [1, 20, 63] {
-                let want = table.mean_of_row(grid(j, LossTable::AVERAGES));
+                let alpha = grid(j, LossTable::AVERAGES);
+                let want = LossTable::mean_of(&table.row(alpha), alpha);
                 // One rounding to f32.
                 assert!((f64::from(table.average[j]) / want - 1.0).abs() < 1e-7, "{j}");
             }

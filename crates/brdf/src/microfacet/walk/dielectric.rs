@@ -35,7 +35,7 @@ impl<T: Real + Spectrum<Real = T>> DielectricWalk<T> {
     pub fn new(eta: Ior<T>, facets: Microfacets<T>) -> Result<Self, ParameterError> {
         if eta.is_matched() {
             let domain = "different from 1 (use the pass-through model)";
-            return Err(ParameterError { parameter: "eta", value: 1.0, domain });
+            return Err(ParameterError::number("eta", eta.value(), domain));
         }
         Ok(Self {
             from_above: RelativeIndex::from_above(eta.value()),
