@@ -221,6 +221,21 @@ mod tests {
     }
 
     #[test]
+    fn without_roughness_the_delta_model_is_built() {
+        for name in ["any-coupled", "any-plastic", "conductor", "dielectric"] {
+            let info = named().find(|info| info.name == name).unwrap();
+            let mut parameters = examples(info);
+            for width in ["alpha", "alpha_x", "alpha_y"] {
+                if parameters.get(width).is_some() {
+                    parameters.set(width, Value::Number(0.0));
+                }
+            }
+            let has_delta = |p| build::<Rgb<f32>>(name, p).unwrap().lobes().delta;
+            assert!(has_delta(&parameters) && !has_delta(&examples(info)), "{name}");
+        }
+    }
+
+    #[test]
     fn synonyms_are_the_same_model() {
         let by = |a: &str, b: &str| {
             let parameters = Parameters::new().with_number(a, 0.25).with_number(b, 0.25);
