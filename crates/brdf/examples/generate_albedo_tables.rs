@@ -1,17 +1,32 @@
-//! Writes the tables of directional albedo that compensation of energy uses.
+//! Writes the tables of directional albedo that compensation of energy and layers use.
 //!
 //! ```sh
-//! cargo run --release -p etendue-brdf --example generate_albedo_tables > table_data.rs
-//! mv table_data.rs crates/brdf/src/microfacet/albedo/
+//! cargo run --release -p etendue-brdf --example generate_albedo_tables facets > data.rs
+//! mv data.rs crates/brdf/src/microfacet/albedo/table_data.rs
 //! ```
+//!
+//! Likewise `dielectric` for `microfacet/albedo/dielectric_data.rs` and `fuzz` for `openpbr/fuzz_data.rs`.
 
-use etendue_brdf::microfacet::LossTable;
-use etendue_brdf::{BeckmannLambda, Distribution, Masking};
+use etendue_brdf::microfacet::{DielectricTable, LossTable};
+use etendue_brdf::{BeckmannLambda, Distribution, FuzzTable, Masking};
 
 fn main() {
-    println!("// Written by examples/generate_albedo_tables.rs; not edited by hand.");
+    let tables = std::env::args().nth(1).unwrap_or_default();
+    println!("// Written by examples/generate_albedo_tables.rs; not edited by hand.\n");
+    match tables.as_str() {
+        "facets" => facets(),
+        "dielectric" => dielectric(),
+        "fuzz" => fuzz(),
+        _ => {
+            eprintln!("usage: generate_albedo_tables facets|dielectric|fuzz");
+            std::process::exit(2);
+        }
+    }
+}
+
+fn facets() {
     println!(
-        "\n#[allow(clippy::approx_constant, reason = \"1 − E is ln 2 for GGX at α = 1 and normal incidence\")]"
+        "#[allow(clippy::approx_constant, reason = \"1 − E is ln 2 for GGX at α = 1 and normal incidence\")]"
     );
     println!("impl LossTable {{");
     let exact = Distribution::Beckmann { lambda: BeckmannLambda::Exact };
@@ -26,11 +41,7 @@ fn main() {
         println!("    #[rustfmt::skip]");
         println!("    pub const {name}: Self = Self {{");
         println!("        loss: [");
-        for row in loss {
-            println!("            [");
-            numbers(row, "                ");
-            println!("            ],");
-        }
+        rows(loss, "            ");
         println!("        ],");
         println!("        average: [");
         numbers(average, "            ");
@@ -38,6 +49,44 @@ fn main() {
         println!("    }};");
     }
     println!("}}");
+}
+
+fn dielectric() {
+    println!("impl DielectricTable {{");
+    println!("    /// GGX, height-correlated masking.");
+    println!("    #[rustfmt::skip]");
+    println!("    pub const GGX: Self = Self([");
+    for layer in DielectricTable::generate().data() {
+        println!("        [");
+        rows(layer, "            ");
+        println!("        ],");
+    }
+    println!("    ]);");
+    println!("}}");
+}
+
+fn fuzz() {
+    let table = FuzzTable::generate();
+    let [area, passed] = table.data();
+    println!("impl FuzzTable {{");
+    println!("    /// The table checked in.");
+    println!("    #[rustfmt::skip]");
+    println!("    pub const CHARLIE: Self = Self {{");
+    for (name, part) in [("area", area), ("passed", passed)] {
+        println!("        {name}: [");
+        rows(part, "            ");
+        println!("        ],");
+    }
+    println!("    }};");
+    println!("}}");
+}
+
+fn rows<const N: usize>(rows: &[[f32; N]], indent: &str) {
+    for row in rows {
+        println!("{indent}[");
+        numbers(row, &format!("{indent}    "));
+        println!("{indent}],");
+    }
 }
 
 /// Eight numbers to a line, in the shortest digits that read back as the same bits.

@@ -116,6 +116,7 @@ pub mod microfacet;
 mod mixture;
 #[cfg(feature = "alloc")]
 pub mod named;
+mod openpbr;
 mod param;
 mod phong;
 mod principled;
@@ -139,6 +140,7 @@ pub use layered::{
 };
 pub use measured::{Interpolation, Measured, MerlError, MerlTable, tabulate};
 pub use microfacet::{BeckmannLambda, Distribution, Masking, Microfacets};
+pub use openpbr::{FuzzTable, OpenPbr, OpenPbrParameters};
 pub use param::{
     Alpha, ComplexIor, Exponent, Ior, Opacity, OpticalDepth, ParameterError, Reflectance,
     Roughness, Sigma,

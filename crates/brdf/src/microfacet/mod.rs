@@ -25,7 +25,8 @@ pub mod sampling;
 mod smith;
 pub mod walk;
 
-pub use albedo::{FacetLoss, LossTable, facet_loss};
+pub(crate) use albedo::{CosineRow, Place};
+pub use albedo::{DielectricTable, FacetLoss, LossTable, facet_loss};
 pub use sampling::{AllNormals, BoundedCaps, NormalSampling, ProjectedDisk, VisibleNormals};
 pub use smith::{Masking, Microfacets};
 

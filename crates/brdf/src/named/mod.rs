@@ -43,6 +43,7 @@ mod error;
 mod forward;
 mod function;
 mod layered;
+mod openpbr;
 mod parameters;
 mod phong;
 mod principled;
@@ -76,6 +77,7 @@ fn entries<C: Spectrum>() -> Vec<Entry<C>> {
     all.extend(adapter::entries());
     all.extend(diffuse::entries());
     all.extend(layered::entries());
+    all.extend(openpbr::entries());
     all.extend(phong::entries());
     all.extend(principled::entries());
     all.extend(rough::entries());
@@ -86,7 +88,7 @@ fn entries<C: Spectrum>() -> Vec<Entry<C>> {
 /// The model `name` with these parameters.
 ///
 /// Parameters that scale (`specular_reflectance`, …) are 1 and choices (`distribution`, …) have their first value unless given;
-/// `principled` and `principled-thin` have Mitsuba's defaults; all others are needed. Rough dielectrics mask
+/// `principled` and `principled-thin` have Mitsuba's defaults, `open-pbr` has OpenPBR's; all others are needed. Rough dielectrics mask
 /// separably unless told otherwise, as Walter et al. do, rough conductors height-correlated. `ashikhmin-shirley` samples half vectors, as published, unless a mixture is asked for.
 ///
 /// # Errors
@@ -132,7 +134,7 @@ mod tests {
             "masking" => Value::Word("height-correlated".into()),
             "scattering" => Value::Word("non-linear".into()),
             "internal_reflectance" => Value::Word("mitsuba".into()),
-            "eta" => Value::Number(1.5),
+            "eta" | "specular_ior" | "coat_ior" => Value::Number(1.5),
             "k" => Value::Number(3.0),
             "reflectance" | "specular_reflectance" | "specular_transmittance" => {
                 Value::Numbers([0.2, 0.4, 0.6].into())
@@ -140,6 +142,14 @@ mod tests {
             "alpha" | "alpha_x" | "alpha_y" | "sigma" | "roughness" | "opacity" | "weight"
             | "anisotropic" | "metallic" | "spec_trans" | "spec_tint" | "sheen" | "sheen_tint"
             | "flatness" | "clearcoat" | "clearcoat_gloss" | "diff_trans" => Value::Number(0.25),
+            name if name.ends_with("_color") => Value::Numbers([0.1, 0.2, 0.3].into()),
+            name if ["base_", "specular_", "coat_", "fuzz_"]
+                .iter()
+                .any(|p| name.starts_with(p))
+                && !name.contains("rate") =>
+            {
+                Value::Number(0.25)
+            }
             rate if rate.ends_with("_sampling_rate") => Value::Number(2.0),
             "r0" | "rs" | "rd" | "rm" | "ks" | "kd" | "transmittance" | "base_color"
             | "optical_depth" => Value::Numbers([0.1, 0.2, 0.3].into()),

@@ -1,8 +1,12 @@
 //! Directional albedo of rough surfaces, tabulated: what compensation of energy starts from.
 
+mod cosine_row;
+mod dielectric_table;
 mod integral;
 mod table;
 
+pub(crate) use cosine_row::{CosineRow, Place};
+pub use dielectric_table::DielectricTable;
 pub use integral::facet_loss;
 pub use table::LossTable;
 
