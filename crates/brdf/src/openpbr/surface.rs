@@ -28,14 +28,15 @@ use crate::{Bsdf, BsdfReal, BsdfVec, Density, Lobes, Microfacets, ParameterError
 /// `base_metalness`. Facets are GGX's, α the square of a roughness; metals reflect by
 /// [`F82Tint`](crate::fresnel::F82Tint), with `specular_color` its tint, and more than once after Kulla and Conty.
 ///
-/// Two ways of layering, both reciprocal: the diffuse base takes what is left by all specular lobes in a coupled product, which returns all
-/// of it to a white base; what is not diffuse is weighted by the smaller transmittance, which never gains.
+/// Two ways of layering, both reciprocal: the diffuse base takes what all specular lobes leave in a coupled product, with
+/// which a white base returns all of it; what is not diffuse is weighted by the smaller transmittance, which never gains.
 ///
 /// Parameters: [`OpenPbrParameters`].
 ///
-/// * Laws: reciprocal. In a white furnace a white glossy base reflects 1 within 0.4 %, the error of the tables; under a
-///   coat or fuzz it loses some percent, most where both sides of the smaller transmittance differ (see "Known
-///   limitations").
+/// * Laws: reciprocal. White parameters and α ≥ 0.1 in a white furnace: a glossy base reflects 1 within 0.1 % (0.8 % with
+///   `base_diffuse_roughness` 1, never above 1.001), at least 0.997 under a coat and 0.995 under fuzz. Metal reflects 1
+///   within 0.1 %, at least 0.982 under a coat and 0.89 under fuzz: see "Known limitations". Of narrower facets the error of the
+///   [`DielectricTable`](crate::microfacet::DielectricTable) at grazing angles comes on top.
 /// * Limits: a roughness of 0 (α below 1e-8) is a mirror, a delta lobe chosen at construction, for coat and base
 ///   each. Without metal, specular, coat and fuzz the model is [`Eon`](crate::Eon).
 /// * Sampling: `u_lobe` chooses fuzz (uniform), coat and base facets (visible normals) or a cosine by about what each
@@ -55,9 +56,12 @@ use crate::{Bsdf, BsdfReal, BsdfVec, Density, Lobes, Microfacets, ParameterError
 /// # Known limitations
 /// * Transmission, subsurface scattering, thin films, emission, opacity, thin walls, and coat normals of their own
 ///   are not here: `transmission_weight`, `subsurface_weight`, `thin_film_weight` and `emission_luminance` count as 0.
-/// * Anisotropic facets are compensated as isotropic ones of the same mean square width.
+/// * Anisotropic facets are compensated as isotropic ones of the same mean square width: white metal then reflects
+///   up to 1.073 (roughness 1, anisotropy 0.9, at cos θ = 0.4 along the first tangent), and a glossy base 0.96 at
+///   cos θ = 0.05 (roughness 0.6, anisotropy 0.7).
 /// * What the facets of dielectrics reflect more than once counts as transmitted.
-/// * Of white metal under a coat up to a tenth is lost: what the coat sends back down is not followed.
+/// * What coat and fuzz send back down to metal is not followed: of white metal 2 % are lost under a coat and 11 %
+///   under fuzz.
 ///
 /// # Precision
 /// A few ulp of each lobe times the condition of the problem, with the tables' values.
@@ -303,7 +307,7 @@ pub(crate) const INFO: ModelInfo = ModelInfo {
     reciprocity: Reciprocity::Reciprocal,
     energy: Energy::Gains {
         maximum: 1.08,
-        at: "white metal, specular_roughness 1, anisotropy 0.8, cos 0.4; 1.001 where isotropic",
+        at: "white metal, specular_roughness 1, anisotropy 0.9, cos 0.4 along x; 1.001 where isotropic",
     },
     lobes: Lobes { continuous: true, delta: true, transmission: false },
     albedo: Albedo::Quadrature,
@@ -362,32 +366,97 @@ mod tests {
     }
 
     #[test]
-    fn zz_scan() {
-        let mut worst = (0.0, [0.0; 4]);
-        for r in [0.7, 0.85, 0.95, 1.0] {
-            for a in [0.3, 0.6, 0.7, 0.8, 0.9] {
-                let p = Parameters {
-                    base_metalness: 1.0,
-                    specular_roughness: r,
-                    specular_roughness_anisotropy: a,
-                    ..white()
-                };
-                let model = build(p);
-                for z in [1.0, 0.7, 0.55, 0.4, 0.25_f64] {
-                    for phi in [0.0, 0.4, 0.8, 1.2, 1.57_f64] {
-                        let s = (1.0 - z * z).sqrt();
-                        let e = directional_albedo::<_, 64>(
-                            &model,
-                            DVec3::new(s * Real::cos(phi), s * Real::sin(phi), z),
-                        );
-                        if e > worst.0 {
-                            worst = (e, [r, a, z, phi]);
-                        }
-                    }
-                }
+    fn a_white_glossy_base_returns_what_it_receives() {
+        for (changed, bound) in [
+            (white(), 1e-3),
+            (Parameters { specular_roughness: 1.0, ..white() }, 1e-3),
+            (Parameters { specular_ior: 1.02, ..white() }, 4e-3),
+            // The coupled product is exact over a Lambertian base; a rough one leans to the viewer.
+            (Parameters { base_diffuse_roughness: 1.0, ..white() }, 8e-3),
+        ] {
+            for albedo in albedos(changed) {
+                assert!((albedo - 1.0).abs() < bound && albedo < 1.001, "{changed:?} {albedo}");
             }
         }
-        std::println!("{worst:?}");
+    }
+
+    #[test]
+    fn layers_never_gain_and_lose_what_is_stated() {
+        let metal = Parameters { base_metalness: 1.0, ..white() };
+        let coat = |p| Parameters { coat_weight: 1.0, coat_roughness: 0.6, ..p };
+        let fuzz = |p| Parameters { fuzz_weight: 1.0, ..p };
+        // Measured: 0.9980, 0.9956, 0.983, 0.894, 0.857 at the darkest angle.
+        for (changed, least) in [
+            (coat(white()), 0.997),
+            (fuzz(white()), 0.995),
+            (coat(metal), 0.982),
+            (fuzz(metal), 0.89),
+            (fuzz(coat(metal)), 0.85),
+        ] {
+            for albedo in albedos(changed) {
+                // The tables' interpolation, and that of the quadrature.
+                assert!(albedo > least && albedo < 1.0005, "{changed:?} {albedo}");
+            }
+        }
+    }
+
+    #[test]
+    fn anisotropic_metal_gains_as_stated() {
+        let metal = Parameters {
+            base_metalness: 1.0,
+            specular_roughness: 1.0,
+            specular_roughness_anisotropy: 0.9,
+            ..white()
+        };
+        let albedo = directional_albedo::<_, 96>(&build(metal), viewer(0.4));
+        // The largest of a grid of roughness, anisotropy, angle and azimuth.
+        assert!((albedo - 1.0728).abs() < 1e-3, "{albedo}");
+    }
+
+    #[test]
+    fn a_coloured_coat_is_seen_as_its_colour_along_the_normal() {
+        let p = Parameters { coat_weight: 1.0, coat_color: 0.3, coat_ior: 1.0, ..white() };
+        let clear = Parameters { coat_color: 1.0, ..p };
+        let ratio = build(p).eval(DVec3::Z, DVec3::Z) / build(clear).eval(DVec3::Z, DVec3::Z);
+        // A logarithm and its exponential.
+        assert!((ratio - 0.3).abs() < 1e-15, "{ratio}");
+        // Along a slanted path there is more of it: of index 1, by 1/cos θ.
+        let (wo, wi) = (viewer(0.5), viewer(0.25));
+        let ratio = build(p).eval(wo, wi) / build(clear).eval(wo, wi);
+        assert!((ratio - Real::powi(0.3, 3)).abs() < 1e-15, "{ratio}");
+    }
+
+    #[test]
+    fn a_smooth_coat_darkens_a_grey_base_as_the_interfaced_lambertian_does() {
+        let p = Parameters {
+            base_color: 0.5,
+            specular_weight: 0.0,
+            coat_weight: 1.0,
+            coat_ior: 1.5,
+            ..Default::default()
+        };
+        let got = directional_albedo::<_, 64>(&build(p), DVec3::Z);
+        // Plastic with non-linear scattering is the exact series, 0.96 · ρ (1 − F_in)/(1 − ρ F_in).
+        let internal = crate::fresnel::dielectric_average(1.0 / 1.5_f64);
+        let want = 0.96 * 0.5 * (1.0 - internal) / (1.0 - 0.5 * internal);
+        // The fit of F_avg is 0.1 % off.
+        assert!((got - want).abs() < 2e-3, "{got} {want}");
+    }
+
+    #[test]
+    fn every_parameter_is_checked() {
+        let broken = |change: fn(&mut Parameters)| {
+            let mut parameters = everything();
+            change(&mut parameters);
+            OpenPbr::new(parameters).is_err()
+        };
+        assert!(broken(|p| p.base_color = 1.1));
+        assert!(broken(|p| p.specular_weight = -0.1));
+        assert!(broken(|p| p.specular_ior = 0.9));
+        assert!(broken(|p| p.coat_ior = f64::INFINITY));
+        assert!(broken(|p| p.coat_color = f64::NAN));
+        assert!(broken(|p| p.fuzz_roughness = 1.1));
+        assert!(broken(|p| p.specular_roughness_anisotropy = f64::NAN));
     }
 
     #[test]

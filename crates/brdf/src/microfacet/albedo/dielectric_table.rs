@@ -2,8 +2,8 @@
 
 use etendue_math::Real;
 
-use super::CosineRow;
 use super::integral::facet_albedo;
+use super::{CosineRow, Place};
 use crate::fresnel::dielectric;
 use crate::{Alpha, Microfacets};
 
@@ -12,18 +12,20 @@ use crate::{Alpha, Microfacets};
 ///
 /// ```text
 /// E(μ) = ∫ D(h) F(wo·h, η) V(wo, wi) cos θi dωi
-/// layers   √ε = k/11,  ε = (η − 1)/(η + 1) the amplitude at normal incidence
+/// layers   √ε = (k + 1)/16,  ε = (η − 1)/(η + 1) the amplitude at normal incidence
 /// rows     √α = i/15;  the first has E = F(μ, η)
 /// columns  √μ = j/31
 /// ```
 ///
 /// linear between nodes. Roots put the nodes where E is steep: at grazing angles, which a small α or an index
-/// near 1 narrows.
+/// near 1 narrows. Below the first layer, η = 1.008, F is a function of c/√ε, which makes E one of μ/√ε and α/√ε: the
+/// first layer is stretched.
 ///
-/// 24 KB, linked only where used.
+/// 32 KB, linked only where used.
 ///
 /// # Precision
-/// Within 4e-3 of the integral; 1e-3 on average.
+/// For α ≥ 0.01 and η ≤ 3 1.4e-3 on average over √μ; at most 0.018 for η ≥ 1.2 and 0.03 below, both
+/// at cosines of some 0.03 for the narrowest of these facets.
 ///
 /// # Source
 /// `cargo run --release -p etendue-brdf --example generate_albedo_tables dielectric` writes `dielectric_data.rs`.
@@ -34,7 +36,9 @@ include!("dielectric_data.rs");
 
 impl DielectricTable {
     /// Nodes over the index.
-    pub const LAYERS: usize = 12;
+    pub const LAYERS: usize = 16;
+    /// Amplitude of the first layer.
+    const FIRST: f64 = 1.0 / (Self::LAYERS * Self::LAYERS) as f64;
     /// Nodes over the width.
     pub const ROWS: usize = 16;
     /// Nodes over the angle.
@@ -55,12 +59,11 @@ impl DielectricTable {
 
     /// Entry of layer `k`, row `i` and column `j`, computed.
     pub fn entry(k: usize, i: usize, j: usize) -> f32 {
-        let fraction = |n: usize, count: usize| n as f64 / (count - 1) as f64;
-        let amplitude = fraction(k, Self::LAYERS).sqr();
-        let alpha = fraction(i, Self::ROWS).sqr();
-        let albedo = albedo(amplitude, alpha, CosineRow::<f64>::node(j));
+        let amplitude = Real::sqr((k + 1) as f64 / Self::LAYERS as f64);
+        let alpha = Real::sqr(i as f64 / (Self::ROWS - 1) as f64);
+        let mu = CosineRow::<f64>::node(j);
         // The error of the quadrature is 5e-6.
-        (1.0 - albedo).max(0.0) as f32
+        (1.0 - albedo(amplitude, alpha, mu)).max(0.0) as f32
     }
 
     /// All entries.
@@ -70,14 +73,38 @@ impl DielectricTable {
 
     /// The row of an amplitude ε and a width α, 0 for a smooth interface, both in `[0, 1]`.
     pub(crate) fn row<T: Real>(&self, amplitude: T, alpha: T) -> CosineRow<T> {
-        let (k, s) = locate(amplitude.safe_sqrt(), Self::LAYERS);
-        let (i, t) = locate(alpha.safe_sqrt(), Self::ROWS);
+        let place = amplitude.safe_sqrt() * T::lit(Self::LAYERS as f64) - T::ONE;
+        if amplitude < T::lit(Self::FIRST) {
+            return self.stretched((place + T::ONE).max(T::ZERO), alpha);
+        }
+        let place = place.max(T::ZERO);
+        let k = (place.to_f64() as usize).min(Self::LAYERS - 2);
+        let s = place - T::lit(k as f64);
+        let [low, high] = [k, k + 1].map(|k| self.row_of_layer(k, alpha));
+        CosineRow(core::array::from_fn(|j| low.0[j] * (T::ONE - s) + high.0[j] * s))
+    }
+
+    /// The first layer narrowed to `share` of its √ε, in `[0, 1)`.
+    fn stretched<T: Real>(&self, share: T, alpha: T) -> CosineRow<T> {
+        if !(share > T::ZERO) {
+            return CosineRow::of(|_| T::ONE);
+        }
+        let first = self.row_of_layer(0, (alpha / share).min(T::ONE));
+        CosineRow::of(|mu: T| {
+            let reflected = T::ONE - first.at(Place::of(mu / share));
+            // Beyond, F falls as (c/√ε)⁻⁴.
+            let beyond = (share / mu.max(share)).sqr();
+            T::ONE - reflected * (beyond * beyond)
+        })
+    }
+
+    fn row_of_layer<T: Real>(&self, k: usize, alpha: T) -> CosineRow<T> {
+        let place = alpha.clamp_to(T::ZERO, T::ONE).sqrt() * T::lit((Self::ROWS - 1) as f64);
+        let i = (place.to_f64() as usize).min(Self::ROWS - 2);
+        let t = place - T::lit(i as f64);
         CosineRow(core::array::from_fn(|j| {
-            let [low, high] = [k, k + 1].map(|k| {
-                let [low, high] = [i, i + 1].map(|i| T::lit(self.0[k][i][j].into()));
-                low * (T::ONE - t) + high * t
-            });
-            low * (T::ONE - s) + high * s
+            let [low, high] = [i, i + 1].map(|i| T::lit(self.0[k][i][j].into()));
+            low * (T::ONE - t) + high * t
         }))
     }
 }
@@ -93,21 +120,13 @@ fn albedo(amplitude: f64, alpha: f64, mu: f64) -> f64 {
     }
 }
 
-/// The interval that `x` lies in among `n` evenly spaced nodes of `[0, 1]`, and where in it.
-fn locate<T: Real>(x: T, n: usize) -> (usize, T) {
-    let x = x.clamp_to(T::ZERO, T::ONE) * T::lit((n - 1) as f64);
-    let i = (x.to_f64() as usize).min(n - 2);
-    (i, x - T::lit(i as f64))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::microfacet::Place;
 
     #[test]
     fn entries_are_what_the_generator_computes() {
-        for (k, i, j) in [(0, 5, 5), (1, 15, 0), (5, 3, 31), (6, 0, 9), (11, 8, 20)] {
+        for (k, i, j) in [(0, 5, 5), (1, 15, 0), (5, 3, 31), (6, 0, 9), (15, 8, 20)] {
             let (got, want) = (DielectricTable::GGX.0[k][i][j], DielectricTable::entry(k, i, j));
             // The float functions of another backend: far below the interpolation.
             assert!((got - want).abs() < 1e-6, "{k} {i} {j}: {got} {want}");
@@ -116,17 +135,18 @@ mod tests {
 
     #[test]
     fn the_interpolation_is_as_good_as_it_says() {
-        let (mut worst, mut sum, mut count) = ((0.0_f64, [0.0; 3]), 0.0, 0);
-        for eta in [1.001, 1.02, 1.1, 1.33, 1.5, 1.6, 2.4, 30.0] {
-            for root in [0.02, 0.1, 0.23, 0.3, 0.57, 0.9, 1.0_f64] {
+        let (mut worst, mut sum, mut count) = ([(0.0_f64, [0.0; 3]); 2], 0.0, 0);
+        for eta in [1.001, 1.01, 1.02, 1.1, 1.2, 1.35, 1.5, 1.6, 2.0, 3.0] {
+            for root in [0.1, 0.17, 0.23, 0.3, 0.57, 0.9, 1.0_f64] {
                 let amplitude = (eta - 1.0) / (eta + 1.0);
                 let row = DielectricTable::GGX.row(amplitude, root * root);
                 for x in 0..25 {
                     let mu = Real::sqr(f64::from(x) / 24.0);
                     let want = 1.0 - albedo(amplitude, root * root, mu);
                     let error = (row.at(Place::of(mu)) - want).abs();
-                    if error > worst.0 {
-                        worst = (error, [eta, root, mu]);
+                    let class = usize::from(eta >= 1.2);
+                    if error > worst[class].0 {
+                        worst[class] = (error, [eta, root, mu]);
                     }
                     sum += error;
                     count += 1;
@@ -134,7 +154,7 @@ mod tests {
             }
         }
         let mean = sum / f64::from(count);
-        assert!(worst.0 < 4e-3 && mean < 1e-3, "{worst:?} {mean}");
+        assert!(worst[0].0 < 3e-2 && worst[1].0 < 1.8e-2 && mean < 1.4e-3, "{worst:?} {mean}");
     }
 
     #[test]
