@@ -10,6 +10,9 @@
 use etendue_brdf::microfacet::{DielectricTable, LossTable};
 use etendue_brdf::{BeckmannLambda, Distribution, FuzzTable, Masking};
 
+/// 1 − E is a well-known constant there.
+const ALLOWED: &str = "#[allow(clippy::approx_constant, reason = \"1 − E is ln 2 for GGX at α = 1 and normal incidence\")]";
+
 fn main() {
     let tables = std::env::args().nth(1).unwrap_or_default();
     println!("// Written by examples/generate_albedo_tables.rs; not edited by hand.\n");
@@ -25,9 +28,7 @@ fn main() {
 }
 
 fn facets() {
-    println!(
-        "#[allow(clippy::approx_constant, reason = \"1 − E is ln 2 for GGX at α = 1 and normal incidence\")]"
-    );
+    println!("{ALLOWED}");
     println!("impl LossTable {{");
     let exact = Distribution::Beckmann { lambda: BeckmannLambda::Exact };
     for (name, what, distribution, masking) in [
@@ -52,17 +53,20 @@ fn facets() {
 }
 
 fn dielectric() {
-    println!("impl DielectricTable {{");
-    println!("    /// GGX, height-correlated masking.");
-    println!("    #[rustfmt::skip]");
-    println!("    pub const GGX: Self = Self([");
-    for layer in DielectricTable::generate().data() {
-        println!("        [");
-        rows(layer, "            ");
-        println!("        ],");
+    println!("/// GGX, height-correlated masking.");
+    println!("{ALLOWED}");
+    println!("#[rustfmt::skip]");
+    println!("static GGX: DielectricTable = DielectricTable([");
+    for k in 0..DielectricTable::LAYERS {
+        println!("    [");
+        for i in 0..DielectricTable::ROWS {
+            let row: [f32; DielectricTable::COLUMNS] =
+                core::array::from_fn(|j| DielectricTable::entry(k, i, j));
+            rows(&[row], "        ");
+        }
+        println!("    ],");
     }
-    println!("    ]);");
-    println!("}}");
+    println!("]);");
 }
 
 fn fuzz() {

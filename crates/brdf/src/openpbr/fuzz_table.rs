@@ -96,7 +96,7 @@ fn projected_area(n: f64, mu: f64) -> f64 {
     for (start, end) in [(0.0, edge), (edge, f64::PI * 0.5)] {
         for (t, weight) in gauss_legendre::<f64, 96>() {
             let theta = start + (end - start) * t;
-            let (s, c) = theta.sin_cos();
+            let (s, c) = Real::sin_cos(theta);
             let (a, b) = (mu * c, sin * s);
             let seen = if a >= b {
                 f64::PI * a
@@ -121,7 +121,7 @@ fn albedo(shape: &FuzzShape<f64>, mu: f64) -> f64 {
         let s = ((1.0 - z) * (1.0 + z)).safe_sqrt();
         let weight = weight * 4.0 * Real::powi(t, 3) * z * f64::PI / 96.0;
         for k in 0..192 {
-            let (sin_phi, cos_phi) = (f64::PI * (f64::from(k) + 0.5) / 96.0).sin_cos();
+            let (sin_phi, cos_phi) = Real::sin_cos(f64::PI * (f64::from(k) + 0.5) / 96.0);
             let wi = Vec3::<f64>::new(s * cos_phi, s * sin_phi, z);
             sum += weight * half_vector(wo, wi).map_or(0.0, |(h, _)| shape.value(wo, wi, h));
         }

@@ -85,7 +85,7 @@ impl<T: Real> Interface<T> {
         if is_mirror {
             CosineRow::of(|mu| self.index.transmittance(mu))
         } else {
-            DielectricTable::GGX.row(self.amplitude, roughness * roughness)
+            DielectricTable::ggx().row(self.amplitude, roughness * roughness)
         }
     }
 }

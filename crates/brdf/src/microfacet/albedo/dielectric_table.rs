@@ -44,17 +44,10 @@ impl DielectricTable {
     /// Nodes over the angle.
     pub const COLUMNS: usize = CosineRow::<f32>::NODES;
 
-    /// Computes the table: a minute.
-    pub fn generate() -> Self {
-        let mut table = Self([[[0.0; Self::COLUMNS]; Self::ROWS]; Self::LAYERS]);
-        for (k, layer) in table.0.iter_mut().enumerate() {
-            for (i, row) in layer.iter_mut().enumerate() {
-                for (j, entry) in row.iter_mut().enumerate() {
-                    *entry = Self::entry(k, i, j);
-                }
-            }
-        }
-        table
+    /// The table checked in: a static one, for it is large.
+    #[inline]
+    pub fn ggx() -> &'static Self {
+        &GGX
     }
 
     /// Entry of layer `k`, row `i` and column `j`, computed.
@@ -64,11 +57,6 @@ impl DielectricTable {
         let mu = CosineRow::<f64>::node(j);
         // The error of the quadrature is 5e-6.
         (1.0 - albedo(amplitude, alpha, mu)).max(0.0) as f32
-    }
-
-    /// All entries.
-    pub fn data(&self) -> &[[[f32; Self::COLUMNS]; Self::ROWS]; Self::LAYERS] {
-        &self.0
     }
 
     /// The row of an amplitude ε and a width α, 0 for a smooth interface, both in `[0, 1]`.
@@ -127,7 +115,7 @@ mod tests {
     #[test]
     fn entries_are_what_the_generator_computes() {
         for (k, i, j) in [(0, 5, 5), (1, 15, 0), (5, 3, 31), (6, 0, 9), (15, 8, 20)] {
-            let (got, want) = (DielectricTable::GGX.0[k][i][j], DielectricTable::entry(k, i, j));
+            let (got, want) = (DielectricTable::ggx().0[k][i][j], DielectricTable::entry(k, i, j));
             // The float functions of another backend: far below the interpolation.
             assert!((got - want).abs() < 1e-6, "{k} {i} {j}: {got} {want}");
         }
@@ -139,7 +127,7 @@ mod tests {
         for eta in [1.001, 1.01, 1.02, 1.1, 1.2, 1.35, 1.5, 1.6, 2.0, 3.0] {
             for root in [0.1, 0.17, 0.23, 0.3, 0.57, 0.9, 1.0_f64] {
                 let amplitude = (eta - 1.0) / (eta + 1.0);
-                let row = DielectricTable::GGX.row(amplitude, root * root);
+                let row = DielectricTable::ggx().row(amplitude, root * root);
                 for x in 0..25 {
                     let mu = Real::sqr(f64::from(x) / 24.0);
                     let want = 1.0 - albedo(amplitude, root * root, mu);
@@ -159,7 +147,7 @@ mod tests {
 
     #[test]
     fn a_matched_interface_reflects_exactly_nothing() {
-        let row = DielectricTable::GGX.row(0.0_f32, 0.3);
+        let row = DielectricTable::ggx().row(0.0_f32, 0.3);
         assert!(row.0.iter().all(|&t| t == 1.0));
     }
 }
