@@ -1,18 +1,34 @@
-//! Writes the tables of directional albedo that compensation of energy uses.
+//! Writes the tables of directional albedo that compensation of energy and layers use.
 //!
 //! ```sh
-//! cargo run --release -p etendue-brdf --example generate_albedo_tables > table_data.rs
-//! mv table_data.rs crates/brdf/src/microfacet/albedo/
+//! cargo run --release -p etendue-brdf --example generate_albedo_tables facets > data.rs
+//! mv data.rs crates/brdf/src/microfacet/albedo/table_data.rs
 //! ```
+//!
+//! Likewise `dielectric` for `microfacet/albedo/dielectric_data.rs` and `fuzz` for `openpbr/fuzz_data.rs`.
 
-use etendue_brdf::microfacet::LossTable;
-use etendue_brdf::{BeckmannLambda, Distribution, Masking};
+use etendue_brdf::microfacet::{DielectricTable, LossTable};
+use etendue_brdf::{BeckmannLambda, Distribution, FuzzTable, Masking};
+
+/// 1 − E is a well-known constant there.
+const ALLOWED: &str = "#[allow(clippy::approx_constant, reason = \"1 − E is ln 2 for GGX at α = 1 and normal incidence\")]";
 
 fn main() {
-    println!("// Written by examples/generate_albedo_tables.rs; not edited by hand.");
-    println!(
-        "\n#[allow(clippy::approx_constant, reason = \"1 − E is ln 2 for GGX at α = 1 and normal incidence\")]"
-    );
+    let tables = std::env::args().nth(1).unwrap_or_default();
+    println!("// Written by examples/generate_albedo_tables.rs; not edited by hand.\n");
+    match tables.as_str() {
+        "facets" => facets(),
+        "dielectric" => dielectric(),
+        "fuzz" => fuzz(),
+        _ => {
+            eprintln!("usage: generate_albedo_tables facets|dielectric|fuzz");
+            std::process::exit(2);
+        }
+    }
+}
+
+fn facets() {
+    println!("{ALLOWED}");
     println!("impl LossTable {{");
     let exact = Distribution::Beckmann { lambda: BeckmannLambda::Exact };
     for (name, what, distribution, masking) in [
@@ -26,11 +42,7 @@ fn main() {
         println!("    #[rustfmt::skip]");
         println!("    pub const {name}: Self = Self {{");
         println!("        loss: [");
-        for row in loss {
-            println!("            [");
-            numbers(row, "                ");
-            println!("            ],");
-        }
+        rows(loss, "            ");
         println!("        ],");
         println!("        average: [");
         numbers(average, "            ");
@@ -38,6 +50,47 @@ fn main() {
         println!("    }};");
     }
     println!("}}");
+}
+
+fn dielectric() {
+    println!("/// GGX, height-correlated masking.");
+    println!("{ALLOWED}");
+    println!("#[rustfmt::skip]");
+    println!("static GGX: DielectricTable = DielectricTable([");
+    for k in 0..DielectricTable::LAYERS {
+        println!("    [");
+        for i in 0..DielectricTable::ROWS {
+            let row: [f32; DielectricTable::COLUMNS] =
+                core::array::from_fn(|j| DielectricTable::entry(k, i, j));
+            rows(&[row], "        ");
+        }
+        println!("    ],");
+    }
+    println!("]);");
+}
+
+fn fuzz() {
+    let table = FuzzTable::generate();
+    let [area, passed] = table.data();
+    println!("impl FuzzTable {{");
+    println!("    /// The table checked in.");
+    println!("    #[rustfmt::skip]");
+    println!("    pub const CHARLIE: Self = Self {{");
+    for (name, part) in [("area", area), ("passed", passed)] {
+        println!("        {name}: [");
+        rows(part, "            ");
+        println!("        ],");
+    }
+    println!("    }};");
+    println!("}}");
+}
+
+fn rows<const N: usize>(rows: &[[f32; N]], indent: &str) {
+    for row in rows {
+        println!("{indent}[");
+        numbers(row, &format!("{indent}    "));
+        println!("{indent}],");
+    }
 }
 
 /// Eight numbers to a line, in the shortest digits that read back as the same bits.

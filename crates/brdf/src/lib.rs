@@ -41,6 +41,7 @@
 //! | [`Mask`] | opacity, inner | reciprocal; albedo ≤ 1 | the inner one with probability opacity | Mitsuba, mask |
 //! | [`Measured`] | table, interpolation | reciprocal; albedo as measured | mixture of cosine and rings of half vectors | Matusik et al. 2003; Rusinkiewicz 1998 |
 //! | [`Null`] |  | reciprocal; albedo ≤ 1 in closed form | delta | index-matched limit of a dielectric |
+//! | [`OpenPbr`] | base_weight, base_color, base_diffuse_roughness, base_metalness, specular_weight, specular_color, specular_roughness, specular_roughness_anisotropy, specular_ior, coat_weight, coat_color, coat_roughness, coat_roughness_anisotropy, coat_ior, coat_darkening, fuzz_weight, fuzz_color, fuzz_roughness | reciprocal; albedo ≤ 1.08 | mixture of uniform, visible normals of coat and base, and cosine; or mirrors | OpenPBR 1.1 |
 //! | [`OrenNayar`] | reflectance, sigma | reciprocal; albedo ≤ 1.0509 | cosine | Oren and Nayar 1994, eqs. 27 to 29 |
 //! | [`OrenNayarFujii`] | reflectance, roughness | reciprocal; albedo ≤ 1 in closed form | cosine | Fujii 2012 |
 //! | [`OrenNayarQualitative`] | reflectance, sigma | reciprocal; albedo ≤ 1.0152 | cosine | Oren and Nayar 1994, eq. 30 |
@@ -119,6 +120,7 @@ pub mod microfacet;
 mod mixture;
 #[cfg(feature = "alloc")]
 pub mod named;
+mod openpbr;
 mod param;
 mod phong;
 mod principled;
@@ -142,6 +144,7 @@ pub use layered::{
 };
 pub use measured::{Interpolation, Measured, MerlError, MerlTable, tabulate};
 pub use microfacet::{BeckmannLambda, Distribution, Masking, Microfacets};
+pub use openpbr::{FuzzTable, OpenPbr, OpenPbrParameters};
 pub use param::{
     Alpha, ComplexIor, Exponent, Given, Ior, Opacity, OpticalDepth, ParameterError, Reflectance,
     Roughness, Sigma,

@@ -1,6 +1,8 @@
 //! The list of all models: what they take, promise and rest on.
 
-use crate::{Lobes, adapter, diffuse, layered, measured, phong, principled, rough, smooth};
+use crate::{
+    Lobes, adapter, diffuse, layered, measured, openpbr, phong, principled, rough, smooth,
+};
 
 /// Whether exchanging the two directions changes a model's value.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -160,6 +162,7 @@ pub const MODELS: &[ModelInfo] = &[
     adapter::mask::INFO,
     measured::merl::INFO,
     smooth::null::INFO,
+    openpbr::surface::INFO,
     diffuse::oren_nayar::INFO,
     diffuse::oren_nayar_fujii::INFO,
     diffuse::oren_nayar_qualitative::INFO,

@@ -6,11 +6,12 @@ use etendue_brdf::{
     ComplexIor, Conductor, Coupled, CoupledInterface, Dielectric, DiffuseTransmitter, Distribution,
     Eon, EonAlbedo, EonSampling, Exponent, InternalReflectance, InternalScattering, Ior,
     KullaContyConductor, KullaContyDielectric, Lambert, LayeredFresnel, LayeredLinear, Mask,
-    Masking, Microfacets, Null, Opacity, OpticalDepth, OrenNayar, OrenNayarFujii,
-    OrenNayarQualitative, ParameterError, Phong, Plastic, PlasticInterface, PlasticSurface,
-    Principled, PrincipledParameters, PrincipledThin, PrincipledThinParameters, Reflectance,
-    RoughConductor, RoughCoupled, RoughDielectric, RoughPlastic, Roughness, Sigma, SmoothConductor,
-    SmoothDielectric, ThinDielectric, TransmittanceTable, TurquinConductor, TwoSided,
+    Masking, Microfacets, Null, Opacity, OpenPbr, OpenPbrParameters, OpticalDepth, OrenNayar,
+    OrenNayarFujii, OrenNayarQualitative, ParameterError, Phong, Plastic, PlasticInterface,
+    PlasticSurface, Principled, PrincipledParameters, PrincipledThin, PrincipledThinParameters,
+    Reflectance, RoughConductor, RoughCoupled, RoughDielectric, RoughPlastic, Roughness, Sigma,
+    SmoothConductor, SmoothDielectric, ThinDielectric, TransmittanceTable, TurquinConductor,
+    TwoSided,
 };
 
 use etendue_math::{Real, Spectrum};
@@ -101,6 +102,7 @@ models! {
     LayeredLinear "layered-linear" |p| LayeredLinear::new(reflectance::<C>(p, 0.6)?, reflectance(p, 0.1)?)?;
     Mask "mask" |p| Mask::new(Lambert::new(reflectance::<C>(p, 0.6)?), Opacity::new(number(p, 0.5))?);
     Null "null" |_p| Null::<C>::new();
+    OpenPbr "open-pbr" |p| OpenPbr::new(open_pbr::<C>(p))?;
     OrenNayar "oren-nayar" |p| OrenNayar::new(reflectance::<C>(p, 0.6)?, Sigma::new(number(p, 0.4))?);
     OrenNayarFujii "oren-nayar-fujii" |p| OrenNayarFujii::new(reflectance::<C>(p, 0.6)?, roughness(p)?);
     OrenNayarQualitative "oren-nayar-qualitative" |p| OrenNayarQualitative::new(reflectance::<C>(p, 0.6)?, Sigma::new(number(p, 0.4))?);
@@ -185,6 +187,30 @@ fn internal(p: &mut impl Parameters) -> InternalReflectance {
 
 fn scattering(p: &mut impl Parameters) -> InternalScattering {
     p.choice([InternalScattering::Linear, InternalScattering::NonLinear])
+}
+
+/// Every lobe.
+fn open_pbr<C: Spectrum>(p: &mut impl Parameters) -> OpenPbrParameters<C> {
+    OpenPbrParameters {
+        base_weight: p.number(0.9),
+        base_color: C::splat(p.number(0.6)),
+        base_diffuse_roughness: p.number(0.3),
+        base_metalness: p.number(0.4),
+        specular_weight: p.number(0.8),
+        specular_color: C::splat(p.number(0.7)),
+        specular_roughness: p.number(0.4),
+        specular_roughness_anisotropy: p.number(0.2),
+        specular_ior: p.number(1.5),
+        coat_weight: p.number(0.5),
+        coat_color: C::splat(p.number(0.8)),
+        coat_roughness: p.number(0.3),
+        coat_roughness_anisotropy: p.number(0.1),
+        coat_ior: p.number(1.6),
+        coat_darkening: p.number(0.7),
+        fuzz_weight: p.number(0.5),
+        fuzz_color: C::splat(p.number(0.9)),
+        fuzz_roughness: p.number(0.5),
+    }
 }
 
 /// Every lobe.

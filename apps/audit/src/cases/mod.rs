@@ -6,6 +6,7 @@ mod adapter;
 mod diffuse;
 mod layered;
 mod measured;
+mod openpbr;
 mod parameters;
 mod phong;
 mod principled;
@@ -80,6 +81,7 @@ pub fn models() -> Vec<ModelCases> {
         of("blend", adapter::blend, adapter::blend),
         of("principled", principled::principled, principled::principled),
         of("principled-thin", principled::principled_thin, principled::principled_thin),
+        of("open-pbr", openpbr::open_pbr, openpbr::open_pbr),
         of("measured", measured::measured, measured::measured),
         of("mask", adapter::mask, adapter::mask),
         of("two-sided", adapter::two_sided, adapter::two_sided),

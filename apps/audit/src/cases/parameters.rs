@@ -14,6 +14,17 @@ pub(super) fn valid<P>(parameter: Result<P, ParameterError>) -> P {
     parameter.expect("a parameter in its domain")
 }
 
+/// Parameters changed from their defaults, by name.
+pub(super) type Changed = [(&'static str, f64)];
+
+/// They as the report prints them.
+pub(super) fn changed_text(changed: &Changed) -> String {
+    if changed.is_empty() {
+        return "defaults".into();
+    }
+    changed.iter().map(|(name, value)| format!("{name} {value}")).collect::<Vec<_>>().join(", ")
+}
+
 pub(super) fn reflectance<T: Scalar>(x: f64) -> Reflectance<T> {
     valid(Reflectance::new(shared::<T>(x)))
 }

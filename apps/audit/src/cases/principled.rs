@@ -3,12 +3,9 @@
 use etendue_brdf::{Principled, PrincipledParameters, PrincipledThin, PrincipledThinParameters};
 use etendue_math::Real;
 
-use super::parameters::valid;
+use super::parameters::{Changed, changed_text as text, valid};
 use crate::scalar::{Scalar, shared};
 use crate::subject::Case;
-
-/// Parameters changed from their defaults, as the report prints them.
-type Changed = [(&'static str, f64)];
 
 pub(super) fn principled<T: Scalar>() -> Vec<Case<T>> {
     let case = |changed: &Changed| {
@@ -87,11 +84,4 @@ fn thin_field<'a, T: Real + etendue_math::Spectrum<Real = T>>(
         "diff_trans" => &mut p.diff_trans,
         _ => unreachable!("no parameter {name}"),
     }
-}
-
-fn text(changed: &Changed) -> String {
-    if changed.is_empty() {
-        return "defaults".into();
-    }
-    changed.iter().map(|(name, value)| format!("{name} {value}")).collect::<Vec<_>>().join(", ")
 }

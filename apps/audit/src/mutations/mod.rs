@@ -9,6 +9,7 @@ mod diffuse;
 mod fresnel;
 mod layered;
 mod microfacet;
+mod openpbr;
 mod phong;
 mod rough;
 mod sampling;
@@ -39,6 +40,7 @@ pub fn all() -> Vec<Mutation> {
         smooth::MUTATIONS,
         rough::MUTATIONS,
         layered::MUTATIONS,
+        openpbr::MUTATIONS,
         phong::MUTATIONS,
         adapter::MUTATIONS,
     ]

@@ -41,6 +41,13 @@ impl<T: Real> RelativeIndex<T> {
         Self { eta, excess, k: excess * (eta + T::ONE), given: eta, side: Side::Above }
     }
 
+    /// As seen from above, by `η − 1`, which has digits that η itself would lose near 1.
+    #[inline]
+    pub(crate) fn from_excess(excess: T) -> Self {
+        let eta = T::ONE + excess;
+        Self { eta, excess, k: excess * (T::TWO + excess), given: eta, side: Side::Above }
+    }
+
     /// The interface with index `eta` from above, as seen from below.
     #[inline(always)]
     pub(crate) fn from_below(eta: T) -> Self {

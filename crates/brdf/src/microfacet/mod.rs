@@ -26,8 +26,11 @@ pub mod sampling;
 mod smith;
 pub mod walk;
 
-pub(crate) use albedo::isotropic_width;
-pub use albedo::{FacetLoss, InterfaceAlbedo, InterfaceFlux, InterfaceLoss, LossTable, facet_loss};
+pub(crate) use albedo::{CosineRow, Place, isotropic_width};
+pub use albedo::{
+    DielectricTable, FacetLoss, InterfaceAlbedo, InterfaceFlux, InterfaceLoss, LossTable,
+    facet_loss,
+};
 pub use sampling::{AllNormals, BoundedCaps, NormalSampling, ProjectedDisk, VisibleNormals};
 pub use smith::{Masking, Microfacets};
 

@@ -43,6 +43,7 @@ mod error;
 mod forward;
 mod function;
 mod layered;
+mod openpbr;
 mod parameters;
 mod phong;
 mod principled;
@@ -76,6 +77,7 @@ fn entries<C: Spectrum>() -> Vec<Entry<C>> {
     all.extend(adapter::entries());
     all.extend(diffuse::entries());
     all.extend(layered::entries());
+    all.extend(openpbr::entries());
     all.extend(phong::entries());
     all.extend(principled::entries());
     all.extend(rough::entries());
@@ -86,7 +88,7 @@ fn entries<C: Spectrum>() -> Vec<Entry<C>> {
 /// The model `name` with these parameters.
 ///
 /// Parameters that scale (`specular_reflectance`, …) are 1 and choices (`distribution`, …) have their first value unless given;
-/// `principled` and `principled-thin` have Mitsuba's defaults; all others are needed. Rough dielectrics mask
+/// `principled` and `principled-thin` have Mitsuba's defaults, `open-pbr` has OpenPBR's; all others are needed. Rough dielectrics mask
 /// separably unless told otherwise, as Walter et al. do, rough conductors height-correlated. `ashikhmin-shirley` samples half vectors, as published, unless a mixture is asked for.
 ///
 /// # Errors
@@ -120,31 +122,30 @@ pub fn direction<T: Real>([x, y, z]: [f64; 3]) -> Option<Vec3<T>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::registry::MODELS;
+    use crate::registry::{MODELS, ParameterInfo};
     use alloc::string::ToString;
     use etendue_math::Rgb;
 
-    /// Values for every parameter there is, by its name in the registry.
-    fn example(name: &str) -> Option<Value> {
-        Some(match name {
+    /// A value for every parameter there is: by its domain, by its name where the domain is words.
+    fn example(parameter: &ParameterInfo) -> Option<Value> {
+        let domain = parameter.domain;
+        Some(match parameter.name {
             "inner" | "front" | "back" | "first" | "second" => Value::Word("null".into()),
             "distribution" => Value::Word("beckmann".into()),
             "masking" => Value::Word("height-correlated".into()),
             "scattering" => Value::Word("non-linear".into()),
             "internal_reflectance" => Value::Word("mitsuba".into()),
+            "sampling" => return None, // its words differ by model
             "eta" => Value::Number(1.5),
+            "sigma" => Value::Number(0.25),
             "k" => Value::Number(3.0),
-            "reflectance" | "specular_reflectance" | "specular_transmittance" => {
-                Value::Numbers([0.2, 0.4, 0.6].into())
+            "optical_depth" => Value::Number(0.3),
+            _ if domain.starts_with("each channel in [0, 1]") => {
+                Value::Numbers([0.1, 0.2, 0.3].into())
             }
-            "alpha" | "alpha_x" | "alpha_y" | "sigma" | "roughness" | "opacity" | "weight"
-            | "anisotropic" | "metallic" | "spec_trans" | "spec_tint" | "sheen" | "sheen_tint"
-            | "flatness" | "clearcoat" | "clearcoat_gloss" | "diff_trans" => Value::Number(0.25),
-            rate if rate.ends_with("_sampling_rate") => Value::Number(2.0),
-            "r0" | "rs" | "rd" | "rm" | "ks" | "kd" | "transmittance" | "base_color"
-            | "optical_depth" => Value::Numbers([0.1, 0.2, 0.3].into()),
-            "nu" | "nv" | "exponent" => Value::Number(20.0),
-            _ => return None,
+            _ if domain.starts_with("in [1e-8, 1") || domain == "in [0, 1]" => Value::Number(0.25),
+            _ if domain.starts_with("in [") => Value::Number(2.0),
+            name => panic!("no value for {name}, {domain}: add one here"),
         })
     }
 
@@ -156,9 +157,8 @@ mod tests {
     fn examples(info: &ModelInfo) -> Parameters {
         let mut parameters = Parameters::new();
         for parameter in info.parameters {
-            match example(parameter.name) {
-                Some(value) => parameters.set(parameter.name, value),
-                None => assert_eq!(parameter.name, "sampling", "its words differ by model"),
+            if let Some(value) = example(parameter) {
+                parameters.set(parameter.name, value);
             }
         }
         parameters

@@ -2,7 +2,7 @@
 
 use alloc::boxed::Box;
 
-use etendue_math::{Real, Spectrum};
+use etendue_math::Spectrum;
 
 use super::{Built, Entry, NamedError, Reader};
 use crate::principled::{solid as solid_model, thin as thin_model};
@@ -15,75 +15,52 @@ pub(super) fn entries<C: Spectrum>() -> [Entry<C>; 2] {
     ]
 }
 
-/// What is given replaces the default.
-fn replace<T: Real>(
-    reader: &Reader,
-    fields: &mut [(&'static str, &mut T)],
-) -> Result<(), NamedError> {
-    for (name, field) in fields {
-        if reader.has(name) {
-            **field = reader.number(name)?;
-        }
-    }
-    Ok(())
-}
-
 fn solid<C: Spectrum>(reader: &Reader) -> Built<C> {
     let mut p = PrincipledParameters::<C>::default();
-    if reader.has("base_color") {
-        p.base_color = reader.color("base_color")?;
-    }
+    reader.replace_colors(&mut [("base_color", &mut p.base_color)])?;
     if reader.has("specular") && !reader.has("eta") {
         p = reader.constructed(p.with_specular(reader.number("specular")?))?;
     } else if reader.has("specular") {
         let expected = "absent where eta is given".into();
         return Err(NamedError::Kind { of: reader.of, parameter: "specular", expected });
     }
-    replace(
-        reader,
-        &mut [
-            ("roughness", &mut p.roughness),
-            ("anisotropic", &mut p.anisotropic),
-            ("metallic", &mut p.metallic),
-            ("spec_trans", &mut p.spec_trans),
-            ("eta", &mut p.eta),
-            ("spec_tint", &mut p.spec_tint),
-            ("sheen", &mut p.sheen),
-            ("sheen_tint", &mut p.sheen_tint),
-            ("flatness", &mut p.flatness),
-            ("clearcoat", &mut p.clearcoat),
-            ("clearcoat_gloss", &mut p.clearcoat_gloss),
-            ("diffuse_reflectance_sampling_rate", &mut p.diffuse_reflectance_sampling_rate),
-            ("main_specular_sampling_rate", &mut p.main_specular_sampling_rate),
-            ("clearcoat_sampling_rate", &mut p.clearcoat_sampling_rate),
-        ],
-    )?;
+    reader.replace(&mut [
+        ("roughness", &mut p.roughness),
+        ("anisotropic", &mut p.anisotropic),
+        ("metallic", &mut p.metallic),
+        ("spec_trans", &mut p.spec_trans),
+        ("eta", &mut p.eta),
+        ("spec_tint", &mut p.spec_tint),
+        ("sheen", &mut p.sheen),
+        ("sheen_tint", &mut p.sheen_tint),
+        ("flatness", &mut p.flatness),
+        ("clearcoat", &mut p.clearcoat),
+        ("clearcoat_gloss", &mut p.clearcoat_gloss),
+        ("diffuse_reflectance_sampling_rate", &mut p.diffuse_reflectance_sampling_rate),
+        ("main_specular_sampling_rate", &mut p.main_specular_sampling_rate),
+        ("clearcoat_sampling_rate", &mut p.clearcoat_sampling_rate),
+    ])?;
     Ok(Box::new(reader.constructed(Principled::new(p))?))
 }
 
 fn thin<C: Spectrum>(reader: &Reader) -> Built<C> {
     let mut p = PrincipledThinParameters::<C>::default();
-    if reader.has("base_color") {
-        p.base_color = reader.color("base_color")?;
-    }
-    replace(
-        reader,
-        &mut [
-            ("roughness", &mut p.roughness),
-            ("anisotropic", &mut p.anisotropic),
-            ("spec_trans", &mut p.spec_trans),
-            ("eta", &mut p.eta),
-            ("spec_tint", &mut p.spec_tint),
-            ("sheen", &mut p.sheen),
-            ("sheen_tint", &mut p.sheen_tint),
-            ("flatness", &mut p.flatness),
-            ("diff_trans", &mut p.diff_trans),
-            ("specular_reflectance_sampling_rate", &mut p.specular_reflectance_sampling_rate),
-            ("specular_transmittance_sampling_rate", &mut p.specular_transmittance_sampling_rate),
-            ("diffuse_reflectance_sampling_rate", &mut p.diffuse_reflectance_sampling_rate),
-            ("diffuse_transmittance_sampling_rate", &mut p.diffuse_transmittance_sampling_rate),
-        ],
-    )?;
+    reader.replace_colors(&mut [("base_color", &mut p.base_color)])?;
+    reader.replace(&mut [
+        ("roughness", &mut p.roughness),
+        ("anisotropic", &mut p.anisotropic),
+        ("spec_trans", &mut p.spec_trans),
+        ("eta", &mut p.eta),
+        ("spec_tint", &mut p.spec_tint),
+        ("sheen", &mut p.sheen),
+        ("sheen_tint", &mut p.sheen_tint),
+        ("flatness", &mut p.flatness),
+        ("diff_trans", &mut p.diff_trans),
+        ("specular_reflectance_sampling_rate", &mut p.specular_reflectance_sampling_rate),
+        ("specular_transmittance_sampling_rate", &mut p.specular_transmittance_sampling_rate),
+        ("diffuse_reflectance_sampling_rate", &mut p.diffuse_reflectance_sampling_rate),
+        ("diffuse_transmittance_sampling_rate", &mut p.diffuse_transmittance_sampling_rate),
+    ])?;
     Ok(Box::new(reader.constructed(PrincipledThin::new(p))?))
 }
 

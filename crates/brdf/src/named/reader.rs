@@ -110,6 +110,32 @@ impl<'a> Reader<'a> {
         self.checked(name, if is_valid(x) { Ok(x) } else { Err(error()) })
     }
 
+    /// What is given replaces the default, of models that have defaults.
+    pub(super) fn replace<T: Real>(
+        &self,
+        fields: &mut [(&'static str, &mut T)],
+    ) -> Result<(), NamedError> {
+        for (name, field) in fields {
+            if self.has(name) {
+                **field = self.number(name)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// The same for colours.
+    pub(super) fn replace_colors<C: Spectrum>(
+        &self,
+        fields: &mut [(&'static str, &mut C)],
+    ) -> Result<(), NamedError> {
+        for (name, field) in fields {
+            if self.has(name) {
+                **field = self.color(name)?;
+            }
+        }
+        Ok(())
+    }
+
     /// A colour: one number for all channels, or three.
     pub(super) fn color<C: Spectrum>(&self, name: &'static str) -> Result<C, NamedError> {
         match self.value(name)? {

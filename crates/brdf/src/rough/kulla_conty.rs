@@ -63,26 +63,40 @@ pub struct KullaContyConductor<C: Spectrum> {
     shares: [C::Real; 2],
 }
 
+/// What facets reflect more than once: `F_ms`, and the factor `1/(π l_avg)` of `l(θo) l(θi)`.
+pub(crate) struct Multiple<C: Spectrum> {
+    pub(crate) reflectance: C,
+    pub(crate) scale: C::Real,
+}
+
+impl<C: Spectrum> Multiple<C> {
+    /// Of facets with the mean reflectance `average`.
+    pub(crate) fn new(average: C, loss: &FacetLoss<C::Real>) -> Self {
+        let (one, lost) = (C::Real::ONE, loss.average());
+        let reflectance = average.map(|f| {
+            let kept = one - f * lost;
+            // l_avg is below 1 for every table, and so is the product.
+            f * f * (one - lost) / kept
+        });
+        let scale = if lost > C::Real::ZERO { C::Real::FRAC_1_PI / lost } else { C::Real::ZERO };
+        Self { reflectance, scale }
+    }
+}
+
 impl<C: Spectrum> KullaContyConductor<C> {
     /// Metal with complex index `ior` and the surface `facets`.
     ///
     /// # Errors
     /// [`ParameterError`] where [`FacetLoss`] has no table.
     pub fn new(ior: ComplexIor<C>, facets: Microfacets<C::Real>) -> Result<Self, ParameterError> {
-        let one = C::Real::ONE;
         let loss = FacetLoss::new(&facets)?;
-        let (average, lost) = (ior.eta().zip(ior.k(), conductor_average), loss.average());
-        let multiple = average.map(|f| {
-            let kept = one - f * lost;
-            // l_avg is below 1 for every table, and so is the product.
-            f * f * (one - lost) / kept
-        });
-        let scale = if lost > C::Real::ZERO { C::Real::FRAC_1_PI / lost } else { C::Real::ZERO };
+        let average = ior.eta().zip(ior.k(), conductor_average);
+        let Multiple { reflectance, scale } = Multiple::new(average, &loss);
         Ok(Self {
             single: RoughConductor::new(ior, facets),
             loss,
-            multiple: multiple.scale(scale),
-            shares: [average.mean(), multiple.mean()],
+            multiple: reflectance.scale(scale),
+            shares: [average.mean(), reflectance.mean()],
         })
     }
 

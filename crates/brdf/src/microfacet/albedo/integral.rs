@@ -28,10 +28,28 @@ pub fn facet_loss<T: Real>(facets: &Microfacets<T>, cos: T) -> T {
     if !(cos > T::ZERO && cos <= T::ONE) {
         return T::ZERO;
     }
-    T::ONE - directional_albedo(facets, cos, &gauss_legendre::<T, NODES>())
+    T::ONE - directional_albedo(facets, |_| T::ONE, cos, &gauss_legendre::<T, NODES>())
 }
 
-fn directional_albedo<T: Real>(facets: &Microfacets<T>, mu: T, rule: &[(T, T)]) -> T {
+/// `E`: what single scattering reflects of the light arriving at cosine `cos`, with the facets' own reflectance
+/// `F(wo·h)`.
+///
+/// The integral of [`facet_loss`] with F inside; its arguments and precision, where F is as smooth as that of a
+/// dielectric.
+pub(super) fn facet_albedo<T: Real>(
+    facets: &Microfacets<T>,
+    reflectance: impl Fn(T) -> T,
+    cos: T,
+) -> T {
+    directional_albedo(facets, reflectance, cos, &gauss_legendre::<T, NODES>())
+}
+
+fn directional_albedo<T: Real>(
+    facets: &Microfacets<T>,
+    reflectance: impl Fn(T) -> T,
+    mu: T,
+    rule: &[(T, T)],
+) -> T {
     let sin = ((T::ONE - mu) * (T::ONE + mu)).safe_sqrt();
     let wo = Vec3::<T>::new(sin, T::ZERO, mu);
     let mut sum = T::ZERO;
@@ -40,7 +58,7 @@ fn directional_albedo<T: Real>(facets: &Microfacets<T>, mu: T, rule: &[(T, T)]) 
         let (cos_phi, sin_phi) = (T::HALF * T::PI * s * s * s).sin_cos();
         let weight = weight * T::HALF * T::lit(3.0) * s * s;
         for cos_phi in [cos_phi, -cos_phi] {
-            sum += weight * over_slopes(facets, wo, [cos_phi, sin_phi], rule);
+            sum += weight * over_slopes(facets, &reflectance, wo, [cos_phi, sin_phi], rule);
         }
     }
     sum
@@ -49,6 +67,7 @@ fn directional_albedo<T: Real>(facets: &Microfacets<T>, mu: T, rule: &[(T, T)]) 
 /// The inner integral, along one azimuth.
 fn over_slopes<T: Real>(
     facets: &Microfacets<T>,
+    reflectance: &impl Fn(T) -> T,
     wo: Vec3<T>,
     [cos_phi, sin_phi]: [T; 2],
     rule: &[(T, T)],
@@ -86,7 +105,7 @@ fn over_slopes<T: Real>(
         let wi = h * (T::TWO * cos) - wo;
         if cos > T::ZERO && wi.z() > T::ZERO {
             let density = T::lit(8.0) * s * (T::ONE - q) * p2 * share * weight;
-            sum += density * facets.weight_of_area(wo, wi, cos / z);
+            sum += density * reflectance(cos.min(T::ONE)) * facets.weight_of_area(wo, wi, cos / z);
         }
     }
     sum
@@ -137,7 +156,7 @@ mod tests {
                 let facets = facets(distribution, alpha, Masking::HeightCorrelated);
                 for cos in [1.0, 0.3, 1.5 * alpha, 0.1 * alpha] {
                     let rule = gauss_legendre::<f64, { 2 * NODES }>();
-                    let fine = 1.0 - directional_albedo(&facets, cos.min(1.0), &rule);
+                    let fine = 1.0 - directional_albedo(&facets, |_| 1.0, cos.min(1.0), &rule);
                     let got = facet_loss(&facets, cos.min(1.0));
                     // The stated precision.
                     assert!(

@@ -1,10 +1,14 @@
 //! Directional albedo of rough surfaces, tabulated: what compensation of energy starts from.
 
+mod cosine_row;
+mod dielectric_table;
 mod integral;
 mod interface;
 mod interface_loss;
 mod table;
 
+pub(crate) use cosine_row::{CosineRow, Place};
+pub use dielectric_table::DielectricTable;
 pub use integral::facet_loss;
 pub use interface::{InterfaceAlbedo, InterfaceFlux};
 pub use interface_loss::InterfaceLoss;
