@@ -44,7 +44,7 @@ use crate::{
 /// # Source
 /// C. Kulla and A. Conty, "Revisiting Physically Based Shading at Imageworks", SIGGRAPH 2017 course, for the lobes;
 /// M is ours, and holds reciprocity and energy together. Against the random walk of
-/// [`microfacet::walk`](crate::microfacet::walk), GGX with η from 1.33 to 2.4: the reflected flux from the thinner medium
+/// [`microfacet::walk`](crate::microfacet::walk), GGX with η from 1.5 to 2.4: the reflected flux from the thinner medium
 /// is within 0.016 at all angles; from the denser one, where l is large, within 0.02 for α = 0.3, 0.07 for
 /// 0.6 and 0.14 for 1, too much at normal and too little at grazing angles. The single lobes alone lose up to 0.3 of
 /// the light from the thinner and 0.7 from the denser medium.
