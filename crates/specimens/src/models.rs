@@ -83,7 +83,7 @@ macro_rules! models {
 models! {
     AbsorbingSlab "absorbing-slab" |p| AbsorbingSlab::new(ior(p)?, OpticalDepth::new(C::splat(p.number(0.5)))?);
     AnyCoupled "any-coupled" |p| AnyCoupled::new(CoupledInterface::schlick(reflectance::<C>(p, 0.04)?), distribution(p), [number(p, 0.25), number(p, 0.4)], masking(p), reflectance(p, 0.6)?)?;
-    AnyPlastic "any-plastic" |p| AnyPlastic::new(&PlasticSurface::new(ior(p)?, distribution(p), number(p, 0.0), masking(p), internal(p))?, reflectance::<C>(p, 0.6)?, scattering(p));
+    AnyPlastic "any-plastic" |p| AnyPlastic::new(&PlasticSurface::new(ior(p)?, distribution(p), number(p, 0.0), masking(p), internal(p))?, reflectance::<C>(p, 0.5)?, scattering(p));
     AshikhminShirley "ashikhmin-shirley" |p| AshikhminShirley::new(exponent(p, 100.0)?, exponent(p, 10.0)?, reflectance::<C>(p, 0.2)?, reflectance(p, 0.6)?).with_sampling(p.choice([AshikhminShirleySampling::Mixture, AshikhminShirleySampling::Specular]));
     AshikhminShirleyDiffuse "ashikhmin-shirley-diffuse" |p| AshikhminShirleyDiffuse::new(reflectance::<C>(p, 0.2)?, reflectance(p, 0.6)?);
     AshikhminShirleySpecular "ashikhmin-shirley-specular" |p| AshikhminShirleySpecular::new(exponent(p, 100.0)?, exponent(p, 10.0)?, reflectance::<C>(p, 0.2)?);
