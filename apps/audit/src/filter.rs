@@ -1,6 +1,6 @@
 //! Which part of the audit is run.
 
-/// Names of models and checks, each matched as a part; none stands for everything.
+/// Names of models and checks, each matched as a part, or of both as `MODEL/CHECK`; none stands for everything.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Filter(Vec<String>);
 
@@ -12,7 +12,11 @@ impl Filter {
 
     /// A check on a model is wanted.
     pub fn wants(&self, model: &str, check: &str) -> bool {
-        self.0.is_empty() || self.0.iter().any(|name| model.contains(name) || check.contains(name))
+        let wanted = |name: &String| match name.split_once('/') {
+            Some((of_model, of_check)) => model.contains(of_model) && check.contains(of_check),
+            None => model.contains(name) || check.contains(name),
+        };
+        self.0.is_empty() || self.0.iter().any(wanted)
     }
 
     /// The names, for a message.
@@ -30,5 +34,8 @@ mod tests {
         let filter = Filter::new(["rough", "energy"]);
         assert!(filter.wants("rough-conductor", "delta") && filter.wants("lambert", "energy"));
         assert!(!filter.wants("lambert", "delta") && Filter::default().wants("lambert", "delta"));
+        let both = Filter::new(["measured/chi"]);
+        assert!(both.wants("measured", "chi-square") && !both.wants("measured", "energy"));
+        assert!(!both.wants("lambert", "chi-square"));
     }
 }

@@ -11,6 +11,7 @@
 //! | [`checks`] | one law per file, with its tolerance and the reason for it |
 //! | [`sweep`] | `f32` against `f64` over the hostile domain |
 //! | [`furnace`] | laws of microfacets by themselves |
+//! | [`closed_forms`] | functions and random walks that are no models, against what is known of them |
 //! | [`hard_cases`] | single functions where naive forms break, each with that naive form |
 //! | [`partition`], [`cubature`], [`statistics`] | the numerics under the checks |
 //! | [`run`], [`report`] | everything on all cores, printed, as JSON and as Markdown |
@@ -25,6 +26,7 @@ mod broken;
 pub mod budget;
 pub mod cases;
 pub mod checks;
+pub mod closed_forms;
 pub mod cubature;
 pub mod document;
 pub mod filter;

@@ -16,13 +16,14 @@ use etendue_audit::filter::Filter;
 use etendue_audit::model_table::{Links, model_table};
 use etendue_audit::progress::Progress;
 use etendue_audit::report::{Report, Totals};
-use etendue_audit::{cases, checks, furnace, hard_cases, report, run};
+use etendue_audit::{cases, checks, closed_forms, furnace, hard_cases, report, run};
 
 /// Audits every reflection model: laws, densities, hostile inputs, in f32 and f64.
 #[derive(Parser)]
 #[command(version, about)]
 struct Arguments {
-    /// Only models and checks whose name contains NAME; may be given several times.
+    /// Only models and checks whose name contains NAME, or both as MODEL/CHECK; may be given several
+    /// times.
     #[arg(long, value_name = "NAME")]
     filter: Vec<String>,
     /// Many more points: a long run, with progress on the error output.
@@ -164,7 +165,11 @@ fn list(out: &mut impl Write) -> io::Result<()> {
     for check in checks::SWEPT {
         writeln!(out, "  {check}")?;
     }
-    writeln!(out, "  {} ({})\n\nhard cases:", furnace::CHECK, furnace::MODEL)?;
+    writeln!(out, "  {} ({})\n\nclosed forms:", furnace::CHECK, furnace::MODEL)?;
+    for form in closed_forms::CLOSED_FORMS {
+        writeln!(out, "  {} ({})", form.name, form.function)?;
+    }
+    writeln!(out, "\nhard cases:")?;
     for hard in hard_cases::HARD_CASES {
         writeln!(out, "  {} ({})", hard.name, hard.function)?;
     }

@@ -8,6 +8,7 @@ use rayon::prelude::*;
 use crate::budget::Budget;
 use crate::cases::{self, ModelCases, Surface};
 use crate::checks::{self, Context};
+use crate::closed_forms::CLOSED_FORMS;
 use crate::filter::Filter;
 use crate::furnace;
 use crate::hard_cases::HARD_CASES;
@@ -25,9 +26,9 @@ const OVERALL_SIGNIFICANCE: f64 = 0.01;
 /// One line of the report: a check on a case in a precision.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Record {
-    /// Model, or the function of a hard case.
+    /// Model, or the function of a closed form or hard case.
     pub model: &'static str,
-    /// Its parameters; empty for a hard case.
+    /// Its parameters; empty for a function.
     pub parameters: String,
     /// `"f32"`, `"f64"`, or `"both"` for a check that compares them.
     pub precision: &'static str,
@@ -67,6 +68,7 @@ pub fn run(budget: Budget, filter: &Filter, progress: &Progress) -> Vec<Record> 
     }
     add_furnaces(&mut tasks, &single, filter, budget);
     add_furnaces(&mut tasks, &double, filter, budget);
+    add_closed_forms(&mut tasks, filter, budget);
     add_hard_cases(&mut tasks, filter);
 
     let mut records: Vec<Record> =
@@ -80,7 +82,7 @@ pub fn run(budget: Budget, filter: &Filter, progress: &Progress) -> Vec<Record> 
     for model in &built {
         records.extend(model.sweep(filter, budget, progress));
     }
-    // A stable sort: hard cases and microfacets, which are no models, stay behind.
+    // A stable sort: functions and microfacets, which are no models, stay behind.
     records.sort_by_key(|r| built.iter().position(|b| b.name == r.model).unwrap_or(built.len()));
     records
 }
@@ -102,6 +104,21 @@ fn add_furnaces<'a, T: Scalar>(
                 naive: None,
             })
         }));
+    }
+}
+
+fn add_closed_forms(tasks: &mut Vec<Task>, filter: &Filter, budget: Budget) {
+    for form in CLOSED_FORMS.iter().filter(|f| filter.wants(f.function, f.name)) {
+        for (precision, check) in [("f32", form.single), ("f64", form.double)] {
+            tasks.push(Box::new(move || Record {
+                model: form.function,
+                parameters: String::new(),
+                precision,
+                check: form.name,
+                outcome: check(budget),
+                naive: None,
+            }));
+        }
     }
 }
 

@@ -1,10 +1,11 @@
 //! The command `etendue-mutations`: seeds bugs into a copy of the workspace and sees that the audit
 //! finds every one.
 //!
-//! Exit codes: 0 every bug was found, 1 one was not, 2 usage, 4 the copy could not be made or built, or
-//! the document could not be written.
+//! Exit codes: 0 every bug was found, 1 one was not or does not build, 2 usage, 4 the sound copy could
+//! not be made or built, or the document could not be written.
 
 use core::time::Duration;
+use std::collections::HashMap;
 use std::fs;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
@@ -14,7 +15,6 @@ use std::time::Instant;
 
 use clap::Parser;
 use etendue_audit::document::{row, with_part};
-use etendue_audit::filter::Filter;
 use etendue_audit::mutations::{self, Mutation};
 use serde_json::Value;
 
@@ -25,8 +25,9 @@ struct Arguments {
     /// Only bugs whose file or description contains TEXT; may be given several times.
     #[arg(long, value_name = "TEXT")]
     only: Vec<String>,
-    /// Also write the table into FILE, between its lines `begin mutations` and `end mutations`.
-    #[arg(long, value_name = "FILE", conflicts_with = "only")]
+    /// Also write the table into FILE, between its lines `begin mutations` and `end mutations`; with
+    /// `--only` what it says of other bugs is kept.
+    #[arg(long, value_name = "FILE")]
     markdown: Option<PathBuf>,
     /// Root of the workspace.
     #[arg(long, value_name = "DIR", default_value = concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))]
@@ -37,8 +38,15 @@ struct Arguments {
 }
 
 /// What of the workspace the audit is built from.
-const COPIED: [&str; 6] =
-    ["Cargo.toml", "Cargo.lock", "crates/math", "crates/sampling", "crates/brdf", "apps/audit"];
+const COPIED: [&str; 7] = [
+    "Cargo.toml",
+    "Cargo.lock",
+    "crates/math",
+    "crates/sampling",
+    "crates/brdf",
+    "crates/specimens",
+    "apps/audit",
+];
 /// A run takes seconds; a machine may be busy.
 const PATIENCE: Duration = Duration::from_secs(600);
 
@@ -55,14 +63,18 @@ fn main() -> ExitCode {
 
 /// How many bugs were not found.
 fn execute(arguments: &Arguments) -> Result<usize, String> {
-    let (all, only) = (mutations::all(), Filter::new(&arguments.only));
-    let wanted: Vec<&Mutation> = all.iter().filter(|m| only.wants(m.file, m.fault)).collect();
+    let (all, only) = (mutations::all(), &arguments.only);
+    let named = |m: &&Mutation| only.iter().any(|t| m.file.contains(t) || m.fault.contains(t));
+    let wanted: Vec<&Mutation> = all.iter().filter(|m| only.is_empty() || named(m)).collect();
     let copy = Workspace::new(arguments)?;
     copy.build()?;
-    if let found @ Verdict::Found(_) = copy.audit(&[]) {
+    let mut filters: Vec<&str> = wanted.iter().flat_map(|m| m.filters).copied().collect();
+    filters.sort_unstable();
+    filters.dedup();
+    if let found @ Verdict::Found(_) = copy.audit(&filters) {
         return Err(format!("without any bug the audit does not pass: {found:?}"));
     }
-    let mut rows = String::new();
+    let mut table = Table::read(arguments.markdown.as_deref())?;
     let mut missed = 0;
     for (i, mutation) in wanted.iter().enumerate() {
         let start = Instant::now();
@@ -70,29 +82,82 @@ fn execute(arguments: &Arguments) -> Result<usize, String> {
         let found = match &verdict {
             Verdict::Found(by) => by.join(", "),
             Verdict::Missed => "**not found**".to_owned(),
+            Verdict::NotBuilt(error) => {
+                eprintln!("{error}");
+                "**does not build**".to_owned()
+            }
         };
-        missed += usize::from(verdict == Verdict::Missed);
+        missed += usize::from(!matches!(verdict, Verdict::Found(_)));
         let seconds = start.elapsed().as_secs_f64();
         eprintln!("{}/{} {seconds:.1} s  {}: {found}", i + 1, wanted.len(), mutation.fault);
-        let file = mutation.file.replace("/src/", "/");
-        rows += &row([&format!("`{file}`"), mutation.fault, &found]);
+        table.insert(mutation, &found);
+        // After every bug, so that a run that is stopped loses nothing.
+        table.write(&all)?;
     }
-    let table = format!(
-        "Run of {}: {} of {} found.\n\n{}{}{rows}",
-        time::OffsetDateTime::now_utc().date(),
-        wanted.len() - missed,
-        wanted.len(),
-        row(["file", "bug", "found by"]),
-        row(["---"; 3]),
-    );
-    print!("{table}");
-    if let Some(path) = &arguments.markdown {
+    print!("{}", table.text(&all));
+    Ok(missed)
+}
+
+/// What is known of each bug, by the first two cells of its row.
+struct Table {
+    document: Option<PathBuf>,
+    rows: HashMap<String, String>,
+}
+
+impl Table {
+    /// The rows that stand in the document, if there is one.
+    fn read(document: Option<&Path>) -> Result<Self, String> {
+        let mut rows = HashMap::new();
+        if let Some(path) = document {
+            let text = fs::read_to_string(path).map_err(|e| format!("{}: {e}", path.display()))?;
+            let part = text.split("<!-- begin mutations -->").nth(1).unwrap_or_default();
+            for line in part.lines() {
+                if let Some((bug, found)) = line.trim_end_matches(" |").rsplit_once(" | ") {
+                    rows.insert(bug.to_owned(), found.to_owned());
+                }
+            }
+        }
+        Ok(Self { document: document.map(Path::to_owned), rows })
+    }
+
+    /// The first two cells of a bug's row.
+    fn key(mutation: &Mutation) -> String {
+        let file = mutation.file.replace("/src/", "/");
+        let cells = row([format!("`{file}`").as_str(), mutation.fault]);
+        cells.trim_end().trim_end_matches(" |").to_owned()
+    }
+
+    fn insert(&mut self, mutation: &Mutation, found: &str) {
+        self.rows.insert(Self::key(mutation), found.to_owned());
+    }
+
+    /// The rows of the bugs that there are, in their order.
+    fn text(&self, all: &[Mutation]) -> String {
+        let known: Vec<_> =
+            all.iter().filter_map(|m| self.rows.get_key_value(&Self::key(m))).collect();
+        let missed = known.iter().filter(|(_, found)| found.starts_with("**")).count();
+        let mut text = format!(
+            "Run of {}: {} of {} found.\n\n",
+            time::OffsetDateTime::now_utc().date(),
+            known.len() - missed,
+            known.len(),
+        );
+        text += &row(["file", "bug", "found by"]);
+        text += &row(["---"; 3]);
+        for (bug, found) in known {
+            text += &format!("{bug} | {found} |\n");
+        }
+        text
+    }
+
+    fn write(&self, all: &[Mutation]) -> Result<(), String> {
+        let Some(path) = &self.document else { return Ok(()) };
         let named = |error: String| format!("{}: {error}", path.display());
         let text = fs::read_to_string(path).map_err(|e| named(e.to_string()))?;
-        let text = with_part(&text, "mutations", &table).map_err(|e| named(e.to_string()))?;
-        fs::write(path, text).map_err(|e| named(e.to_string()))?;
+        let text =
+            with_part(&text, "mutations", &self.text(all)).map_err(|e| named(e.to_string()))?;
+        fs::write(path, text).map_err(|e| named(e.to_string()))
     }
-    Ok(missed)
 }
 
 #[derive(Debug, PartialEq, Eq)]
@@ -100,6 +165,8 @@ enum Verdict {
     /// By these checks.
     Found(Vec<String>),
     Missed,
+    /// With these errors of the compiler.
+    NotBuilt(String),
 }
 
 /// The copy that is broken, kept beside the other products of the build so that the next run starts
@@ -134,7 +201,7 @@ impl Workspace {
         fs::write(&path, sound.replacen(find, replace, 1)).map_err(named)?;
         let verdict = self.build().map(|()| self.audit(filters));
         fs::write(&path, sound).map_err(named)?;
-        verdict.map_err(|error| format!("'{fault}': {error}"))
+        Ok(verdict.unwrap_or_else(Verdict::NotBuilt))
     }
 
     fn build(&self) -> Result<(), String> {

@@ -58,8 +58,10 @@ pub(super) fn two_sided<T: Scalar>() -> Vec<Case<T>> {
     let diffuse = Lambert::new(reflectance::<T>(0.5));
     let surface = facets::<T>(Distribution::Ggx, [0.3; 2], Masking::HeightCorrelated);
     let metal = RoughConductor::new(complex::<T>(METALS[0].1), surface);
+    let dark = Lambert::new(reflectance::<T>(0.2));
     vec![
         Case::new("lambert", TwoSided::same(diffuse)),
+        Case::new("lambert, a darker one behind", TwoSided::new(diffuse, dark)),
         Case::new("rough-conductor, lambert behind", TwoSided::new(metal, diffuse)),
     ]
 }

@@ -89,7 +89,9 @@ fn roughness<T: Scalar>(r: f64) -> Roughness<T> {
 pub(super) fn oren_nayar_fujii<T: Scalar>() -> Vec<Case<T>> {
     let case = |rho, r| {
         let model = OrenNayarFujii::new(reflectance::<T>(rho), roughness::<T>(r));
-        Case::new(format!("albedo {rho}, roughness {r}"), model)
+        let name = format!("albedo {rho}, roughness {r}");
+        let [rho, r] = [rho, r].map(shared::<f64>);
+        Case::new(name, model).textbook(move |wo, wi| textbook::fujii(rho, r, wo, wi))
     };
     vec![
         case(0.0, 0.5),
@@ -107,7 +109,11 @@ fn eon_case<T: Scalar>(albedo: EonAlbedo, rho: f64, r: f64, sampling: EonSamplin
 }
 
 pub(super) fn eon<T: Scalar>() -> Vec<Case<T>> {
-    let case = |rho, r, sampling| eon_case::<T>(EonAlbedo::Exact, rho, r, sampling);
+    let case = |rho, r, sampling| {
+        let case = eon_case::<T>(EonAlbedo::Exact, rho, r, sampling);
+        let [rho, r] = [rho, r].map(shared::<f64>);
+        case.textbook(move |wo, wi| textbook::eon(rho, r, wo, wi))
+    };
     let white = &[(0.01, 1.0), (0.8, 1.0), (1.3, 1.0), (1.56, 1.0)];
     vec![
         case(0.0, 0.5, EonSampling::Cosine),

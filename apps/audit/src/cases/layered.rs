@@ -6,7 +6,11 @@ use etendue_brdf::{
     PlasticSurface, RoughCoupled, RoughPlastic, TransmittanceTable,
 };
 
-use super::parameters::{BECKMANN, alpha, facets, ior, on_surfaces, reflectance, valid};
+use etendue_math::Real;
+
+use super::parameters::{
+    BECKMANN, alpha, as_published, facets, ior, on_surfaces, reflectance, valid,
+};
 use super::textbook;
 use crate::scalar::{Scalar, shared};
 use crate::subject::{Case, Width};
@@ -127,7 +131,7 @@ pub(super) fn coupled<T: Scalar>() -> Vec<Case<T>> {
     for (name, interface) in interfaces::<T>() {
         for rm in [0.0, 0.5, 1.0] {
             let model = Coupled::new(interface, reflectance::<T>(rm));
-            let case = Case::new(format!("{name}, rm {rm}"), model);
+            let case = schlick_textbook(Case::new(format!("{name}, rm {rm}"), model), &name, rm);
             // White is white at every angle.
             let white: &[(f64, f64)] = &[(0.0, 1.0), (0.8, 1.0), (1.3, 1.0), (1.56, 1.0)];
             cases.push(if rm == 1.0 { case.lossless().published(white) } else { case });
@@ -136,10 +140,27 @@ pub(super) fn coupled<T: Scalar>() -> Vec<Case<T>> {
     cases
 }
 
+/// The published matte part, which the paper gives for Schlick's interface.
+fn schlick_textbook<T: Scalar>(case: Case<T>, name: &str, rm: f64) -> Case<T> {
+    match name.strip_prefix("Schlick R0 ").and_then(|r0| r0.parse().ok()) {
+        Some(r0) => {
+            let [r0, rm] = [r0, rm].map(shared::<f64>);
+            case.textbook(move |wo, wi| textbook::coupled(r0, rm, wo, wi))
+        }
+        None => case,
+    }
+}
+
 pub(super) fn rough_coupled<T: Scalar>() -> Vec<Case<T>> {
     let ceramic = CoupledInterface::schlick(reflectance::<T>(0.04));
     let model = |facets| RoughCoupled::new(ceramic, facets, reflectance::<T>(0.7));
-    let mut cases = on_surfaces(", Schlick R0 0.04, rm 0.7", model);
+    let [r0, rm] = [0.04, 0.7].map(shared::<f64>);
+    let cases = on_surfaces(", Schlick R0 0.04, rm 0.7", model);
+    let mut cases: Vec<_> = as_published(cases, move |facets, wo, wi| {
+        let schlick = |cos: f64| r0 + (1.0 - r0) * Real::powi(1.0 - cos, 5);
+        facets.reflection(schlick, wo, wi) + textbook::coupled(r0, rm, wo, wi)
+    })
+    .collect();
     // Half of the samples shape cells for the matte term: the Gaussian that the horizon cuts off at cos θ = 0.15
     // is left to cells of which cubature misses 1.4 % without noticing (a product rule of 700 × 1400 nodes does not).
     for case in &mut cases {

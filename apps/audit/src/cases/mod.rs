@@ -12,7 +12,7 @@ mod phong;
 mod principled;
 mod rough;
 mod smooth;
-mod textbook;
+pub(crate) mod textbook;
 
 use etendue_brdf::registry::{MODELS, ModelInfo};
 

@@ -4,16 +4,15 @@ use etendue_brdf::{Principled, PrincipledParameters, PrincipledThin, PrincipledT
 use etendue_math::Real;
 
 use super::parameters::{Changed, changed_text as text, valid};
+use super::textbook;
 use crate::scalar::{Scalar, shared};
 use crate::subject::Case;
 
 pub(super) fn principled<T: Scalar>() -> Vec<Case<T>> {
     let case = |changed: &Changed| {
-        let mut p = PrincipledParameters::<T>::default();
-        for &(name, value) in changed {
-            *field(&mut p, name) = shared::<T>(value);
-        }
-        Case::new(text(changed), valid(Principled::new(p)))
+        let literal = solid_parameters::<f64>(changed);
+        Case::new(text(changed), valid(Principled::new(solid_parameters::<T>(changed))))
+            .textbook(move |wo, wi| textbook::principled::solid(&literal, wo, wi))
     };
     let white = ("base_color", 1.0);
     vec![
@@ -23,6 +22,9 @@ pub(super) fn principled<T: Scalar>() -> Vec<Case<T>> {
         case(&[white, ("roughness", 0.5), ("sheen", 1.0), ("clearcoat", 1.0), ("eta", 0.01)]),
         case(&[white, ("roughness", 1.0), ("flatness", 1.0)]),
         case(&[("clearcoat", 1.0), ("clearcoat_gloss", 0.5), ("spec_tint", 0.5)]),
+        case(&[("metallic", 0.4), ("spec_tint", 0.6), ("sheen", 0.5), ("roughness", 0.6)]),
+        // The coat's own density: no other lobe is drawn.
+        case(&[("clearcoat", 1.0), ("diffuse_rate", 0.0), ("specular_rate", 0.0)]),
         case(&[white, ("spec_trans", 1.0), ("roughness", 0.6)]),
         case(&[("spec_trans", 0.5), ("metallic", 0.3), ("eta", 0.7), ("roughness", 0.7)]),
     ]
@@ -30,11 +32,9 @@ pub(super) fn principled<T: Scalar>() -> Vec<Case<T>> {
 
 pub(super) fn principled_thin<T: Scalar>() -> Vec<Case<T>> {
     let case = |changed: &Changed| {
-        let mut p = PrincipledThinParameters::<T>::default();
-        for &(name, value) in changed {
-            *thin_field(&mut p, name) = shared::<T>(value);
-        }
-        Case::new(text(changed), valid(PrincipledThin::new(p)))
+        let literal = thin_parameters::<f64>(changed);
+        Case::new(text(changed), valid(PrincipledThin::new(thin_parameters::<T>(changed))))
+            .textbook(move |wo, wi| textbook::principled::thin(&literal, wo, wi))
     };
     let white = ("base_color", 1.0);
     vec![
@@ -46,6 +46,22 @@ pub(super) fn principled_thin<T: Scalar>() -> Vec<Case<T>> {
         // Transmission of width 0.03: half of it in the mixture is about what cells resolve.
         case(&[("spec_trans", 0.7), ("eta", 0.8), ("diff_trans", 2.0), ("roughness", 1.0)]),
     ]
+}
+
+fn solid_parameters<T: Scalar>(changed: &Changed) -> PrincipledParameters<T> {
+    let mut parameters = PrincipledParameters::default();
+    for &(name, value) in changed {
+        *field(&mut parameters, name) = shared::<T>(value);
+    }
+    parameters
+}
+
+fn thin_parameters<T: Scalar>(changed: &Changed) -> PrincipledThinParameters<T> {
+    let mut parameters = PrincipledThinParameters::default();
+    for &(name, value) in changed {
+        *thin_field(&mut parameters, name) = shared::<T>(value);
+    }
+    parameters
 }
 
 fn field<'a, T: Real + etendue_math::Spectrum<Real = T>>(
@@ -64,6 +80,8 @@ fn field<'a, T: Real + etendue_math::Spectrum<Real = T>>(
         "flatness" => &mut p.flatness,
         "clearcoat" => &mut p.clearcoat,
         "clearcoat_gloss" => &mut p.clearcoat_gloss,
+        "diffuse_rate" => &mut p.diffuse_reflectance_sampling_rate,
+        "specular_rate" => &mut p.main_specular_sampling_rate,
         _ => unreachable!("no parameter {name}"),
     }
 }

@@ -70,19 +70,30 @@ const TABULATED: [(&str, Distribution, f64, Masking); 7] = [
 ];
 
 /// Every tabulated surface as a perfect mirror, and as gold in blue light.
+///
+/// The literal form has the table in it, which the function `FacetLoss` answers for.
 fn compensated<T: Scalar, B: Bsdf<Color = T> + Send + Sync + 'static>(
     model: impl Fn(ComplexIor<T>, Microfacets<T>) -> Result<B, ParameterError>,
+    literal: fn(&textbook::Compensated, [f64; 3], [f64; 3]) -> f64,
 ) -> Vec<Case<T>> {
-    let metals = [("perfect mirror", ComplexIor::perfect()), ("gold", complex::<T>(METALS[1].1))];
-    let case = |&(name, distribution, a, masking): &(_, _, _, _), (metal, ior): &(_, _)| {
-        let bsdf = valid(model(*ior, facets::<T>(distribution, [a; 2], masking)));
-        Case::new(format!("{name}, {metal}"), bsdf).of_width(width::<T>(a))
+    let metals = [("perfect mirror", [0.0, 1.0]), ("gold", METALS[1].1)];
+    let case = |&(name, distribution, a, masking): &(_, _, _, _), (metal, index): (_, [f64; 2])| {
+        let bsdf = valid(model(complex::<T>(index), facets::<T>(distribution, [a; 2], masking)));
+        let case = Case::new(format!("{name}, {metal}"), bsdf).of_width(width::<T>(a));
+        if a < 1e-3 {
+            return case;
+        }
+        let surface = facets::<f64>(distribution, [a; 2], masking);
+        let facets = textbook::Facets { distribution, widths: [shared::<f64>(a); 2], masking };
+        let index = index.map(shared::<f64>);
+        let printed = valid(textbook::Compensated::new(facets, index, &surface));
+        case.textbook(move |wo, wi| literal(&printed, wo, wi))
     };
-    TABULATED.iter().flat_map(|surface| metals.iter().map(|m| case(surface, m))).collect()
+    TABULATED.iter().flat_map(|surface| metals.map(|metal| case(surface, metal))).collect()
 }
 
 pub(super) fn kulla_conty<T: Scalar>() -> Vec<Case<T>> {
-    let mut cases = compensated(KullaContyConductor::<T>::new);
+    let mut cases = compensated(KullaContyConductor::<T>::new, textbook::Compensated::kulla_conty);
     // The white furnace: nothing is lost at the widest lobe.
     let widest = facets::<T>(Distribution::Ggx, [1.0; 2], Masking::HeightCorrelated);
     let mirror = valid(KullaContyConductor::<T>::new(ComplexIor::perfect(), widest));
@@ -91,7 +102,7 @@ pub(super) fn kulla_conty<T: Scalar>() -> Vec<Case<T>> {
 }
 
 pub(super) fn turquin<T: Scalar>() -> Vec<Case<T>> {
-    let mut cases = compensated(TurquinConductor::<T>::new);
+    let mut cases = compensated(TurquinConductor::<T>::new, textbook::Compensated::turquin);
     let widest = facets::<T>(Distribution::Ggx, [1.0; 2], Masking::HeightCorrelated);
     let mirror = valid(TurquinConductor::<T>::new(ComplexIor::perfect(), widest));
     cases.push(Case::new("ggx α 1, white furnace", mirror).lossless().published(WHITE_FURNACE));

@@ -3,9 +3,12 @@
 //! Angles by `acos`, tangents of angles, quotients that cancel: the forms of the papers, not the
 //! forms in use, so that a wrong constant cannot stand in both.
 
+pub(crate) mod principled;
+
 use core::f64::consts::PI;
 
-use etendue_brdf::{BeckmannLambda, Distribution, Masking};
+use etendue_brdf::microfacet::FacetLoss;
+use etendue_brdf::{BeckmannLambda, Distribution, Masking, Microfacets, ParameterError};
 use etendue_math::Real;
 
 type Direction = [f64; 3];
@@ -28,12 +31,12 @@ fn cos_azimuth(wo: Direction, wi: Direction) -> f64 {
 }
 
 /// Lambert.
-pub(super) fn lambert(rho: f64, wo: Direction, wi: Direction) -> f64 {
+pub(crate) fn lambert(rho: f64, wo: Direction, wi: Direction) -> f64 {
     if both_above(wo, wi) { rho / PI } else { 0.0 }
 }
 
 /// Oren and Nayar 1994, eqs. 27 to 29, limited to f ≥ 0.
-pub(super) fn oren_nayar(rho: f64, sigma: f64, wo: Direction, wi: Direction) -> f64 {
+pub(crate) fn oren_nayar(rho: f64, sigma: f64, wo: Direction, wi: Direction) -> f64 {
     if !both_above(wo, wi) {
         return 0.0;
     }
@@ -54,7 +57,7 @@ pub(super) fn oren_nayar(rho: f64, sigma: f64, wo: Direction, wi: Direction) -> 
 }
 
 /// Oren and Nayar 1994, eq. 30.
-pub(super) fn oren_nayar_qualitative(rho: f64, sigma: f64, wo: Direction, wi: Direction) -> f64 {
+pub(crate) fn oren_nayar_qualitative(rho: f64, sigma: f64, wo: Direction, wi: Direction) -> f64 {
     if !both_above(wo, wi) {
         return 0.0;
     }
@@ -65,8 +68,46 @@ pub(super) fn oren_nayar_qualitative(rho: f64, sigma: f64, wo: Direction, wi: Di
     rho / PI * (a + b * lobe)
 }
 
+/// Fujii's improved form of Oren and Nayar, with σ as roughness, normalised at normal incidence.
+pub(crate) fn fujii(rho: f64, roughness: f64, wo: Direction, wi: Direction) -> f64 {
+    if !both_above(wo, wi) {
+        return 0.0;
+    }
+    let a = 1.0 / (1.0 + (0.5 - 2.0 / (3.0 * PI)) * roughness);
+    let s = dot(wo, wi) - wo[2] * wi[2];
+    let t = if s > 0.0 { wo[2].max(wi[2]) } else { 1.0 };
+    rho / PI * a * (1.0 + roughness * s / t)
+}
+
+/// Portsmouth, Kutz and Hill 2025 with the exact albedo.
+pub(crate) fn eon(rho: f64, roughness: f64, wo: Direction, wi: Direction) -> f64 {
+    if !both_above(wo, wi) {
+        return 0.0;
+    }
+    let a = 1.0 / (1.0 + (0.5 - 2.0 / (3.0 * PI)) * roughness);
+    let b = roughness * a;
+    let albedo = |cos: f64| {
+        let (theta, sin) = (Real::acos(cos), (1.0 - cos * cos).sqrt());
+        let g = sin * (theta - sin * cos) + 2.0 / 3.0 * (sin / cos * (1.0 - sin * sin * sin) - sin);
+        a + b / PI * g
+    };
+    let average = a + b * (2.0 / 3.0 - 28.0 / (15.0 * PI));
+    let multiple = rho * rho * average / (1.0 - rho * (1.0 - average)) / PI;
+    let lost = (1.0 - albedo(wo[2])) * (1.0 - albedo(wi[2]));
+    fujii(rho, roughness, wo, wi) + multiple * lost / (1.0 - average).max(1e-300)
+}
+
+/// Shirley et al. 1997 with Schlick's Fresnel term: the matte part.
+pub(crate) fn coupled(r0: f64, rm: f64, wo: Direction, wi: Direction) -> f64 {
+    if !both_above(wo, wi) {
+        return 0.0;
+    }
+    let lost = |w: Direction| (1.0 - r0) * (1.0 - Real::powi(1.0 - w[2], 5));
+    if r0 < 1.0 { 21.0 / (20.0 * PI * (1.0 - r0)) * rm * lost(wo) * lost(wi) } else { 0.0 }
+}
+
 /// Fresnel's equations, Snell's law for the cosine of the refracted ray.
-pub(super) fn dielectric(cos: f64, eta: f64) -> f64 {
+pub(crate) fn dielectric(cos: f64, eta: f64) -> f64 {
     let sin2_t = (1.0 - cos * cos) / (eta * eta);
     if sin2_t >= 1.0 {
         return 1.0;
@@ -78,7 +119,7 @@ pub(super) fn dielectric(cos: f64, eta: f64) -> f64 {
 }
 
 /// Fresnel's equations with the complex index η + ik.
-pub(super) fn conductor(cos: f64, [eta, k]: [f64; 2]) -> f64 {
+pub(crate) fn conductor(cos: f64, [eta, k]: [f64; 2]) -> f64 {
     let (sin2, eta2, k2) = (1.0 - cos * cos, eta * eta, k * k);
     let t0 = eta2 - k2 - sin2;
     let a2b2 = (t0 * t0 + 4.0 * eta2 * k2).sqrt();
@@ -90,10 +131,10 @@ pub(super) fn conductor(cos: f64, [eta, k]: [f64; 2]) -> f64 {
 
 /// A microfacet surface as the papers write it.
 #[derive(Clone, Copy)]
-pub(super) struct Facets {
-    pub(super) distribution: Distribution,
-    pub(super) widths: [f64; 2],
-    pub(super) masking: Masking,
+pub(crate) struct Facets {
+    pub(crate) distribution: Distribution,
+    pub(crate) widths: [f64; 2],
+    pub(crate) masking: Masking,
 }
 
 impl Facets {
@@ -140,7 +181,7 @@ impl Facets {
     }
 
     /// Cook and Torrance 1982, Walter et al. 2007, eq. 20.
-    pub(super) fn reflection(
+    pub(crate) fn reflection(
         &self,
         fresnel: impl Fn(f64) -> f64,
         wo: Direction,
@@ -154,7 +195,7 @@ impl Facets {
     }
 
     /// Walter et al. 2007, eqs. 20 and 21; radiance leaves towards `wo`.
-    pub(super) fn dielectric(&self, eta: f64, wo: Direction, wi: Direction) -> f64 {
+    pub(crate) fn dielectric(&self, eta: f64, wo: Direction, wi: Direction) -> f64 {
         // The media of wo and of wi.
         let index = |w: Direction| if w[2] > 0.0 { 1.0 } else { eta };
         let (no, ni) = (index(wo), index(wi));
@@ -178,23 +219,69 @@ impl Facets {
     }
 }
 
-/// The average internal reflectance `2 ∫ F c dc`, by the midpoint rule in `c = t²` on either side of
-/// the critical cosine.
-fn internal_average(eta: f64) -> f64 {
+/// A rough metal and what its facets lose, for compensations of it.
+pub(crate) struct Compensated {
+    facets: Facets,
+    index: [f64; 2],
+    average_reflectance: f64,
+    loss: FacetLoss<f64>,
+}
+
+impl Compensated {
+    pub(crate) fn new(
+        facets: Facets,
+        index: [f64; 2],
+        surface: &Microfacets<f64>,
+    ) -> Result<Self, ParameterError> {
+        let average_reflectance = cosine_average(|c| conductor(c, index));
+        let loss = FacetLoss::new(surface)?;
+        Ok(Self { facets, index, average_reflectance, loss })
+    }
+
+    fn single(&self, wo: Direction, wi: Direction) -> f64 {
+        self.facets.reflection(|cos| conductor(cos, self.index), wo, wi)
+    }
+
+    /// Kulla and Conty 2017, with the square of the average reflectance.
+    pub(crate) fn kulla_conty(&self, wo: Direction, wi: Direction) -> f64 {
+        if !both_above(wo, wi) {
+            return 0.0;
+        }
+        let (f, e) = (self.average_reflectance, 1.0 - self.loss.average());
+        let color = f * f * e / (1.0 - f * (1.0 - e));
+        let lost = self.loss.at(wo[2]) * self.loss.at(wi[2]);
+        self.single(wo, wi) + color * lost / (PI * (1.0 - e))
+    }
+
+    /// Turquin 2019, eq. 16.
+    pub(crate) fn turquin(&self, wo: Direction, wi: Direction) -> f64 {
+        let e = 1.0 - self.loss.at(wo[2]);
+        (1.0 + conductor(1.0, self.index) * (1.0 - e) / e) * self.single(wo, wi)
+    }
+}
+
+/// `2 ∫ f(c) c dc`, by the midpoint rule in `c = t²`, where reflectances from below the thinner medium have a
+/// root at 0.
+pub(crate) fn cosine_average(f: impl Fn(f64) -> f64) -> f64 {
+    stretched_average(0.0, f)
+}
+
+fn stretched_average(start: f64, f: impl Fn(f64) -> f64) -> f64 {
     const N: u32 = 20_000;
+    let length = 1.0 - start;
+    let node = |i: u32| (f64::from(i) + 0.5) / f64::from(N);
+    let points = (0..N).map(|i| (start + length * node(i) * node(i), node(i)));
+    points.map(|(c, t)| f(c) * 2.0 * c * 2.0 * t * length / f64::from(N)).sum()
+}
+
+/// The average internal reflectance, on either side of the critical cosine.
+fn internal_average(eta: f64) -> f64 {
     let critical = (1.0 - 1.0 / (eta * eta)).max(0.0).sqrt();
-    let above: f64 = (0..N)
-        .map(|i| {
-            let t = (f64::from(i) + 0.5) / f64::from(N);
-            let c = critical + (1.0 - critical) * t * t;
-            dielectric(c, 1.0 / eta) * 2.0 * c * 2.0 * t * (1.0 - critical) / f64::from(N)
-        })
-        .sum();
-    above + critical * critical
+    stretched_average(critical, |c| dielectric(c, 1.0 / eta)) + critical * critical
 }
 
 /// The diffuse part of a smooth plastic, for an albedo of the base with its internal reflections.
-pub(super) fn plastic(base: f64, eta: f64, wo: Direction, wi: Direction) -> f64 {
+pub(crate) fn plastic(base: f64, eta: f64, wo: Direction, wi: Direction) -> f64 {
     if !both_above(wo, wi) {
         return 0.0;
     }
@@ -202,11 +289,11 @@ pub(super) fn plastic(base: f64, eta: f64, wo: Direction, wi: Direction) -> f64 
 }
 
 /// `ρ/(1 − F)`, the reflections between base and interface summed as if the base were white.
-pub(super) fn linear_base(rho: f64, eta: f64) -> f64 {
+pub(crate) fn linear_base(rho: f64, eta: f64) -> f64 {
     rho / (1.0 - internal_average(eta))
 }
 
 /// `ρ/(1 − ρF)`, every reflection by the base absorbing anew.
-pub(super) fn non_linear_base(rho: f64, eta: f64) -> f64 {
+pub(crate) fn non_linear_base(rho: f64, eta: f64) -> f64 {
     rho / (1.0 - rho * internal_average(eta))
 }

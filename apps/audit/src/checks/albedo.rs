@@ -23,7 +23,8 @@ pub(super) fn check<T: Scalar>(subject: &Subject<T>, context: &Context) -> Outco
         return Outcome::NotApplicable("a lobe too narrow for cubature");
     }
     let mut worst = Worst::default();
-    for wo in viewers::<T>(context.budget.viewers) {
+    // From either side of the surface even in the shortest run.
+    for wo in viewers::<T>(context.budget.viewers.max(2)) {
         let Some(closed) = subject.case.bsdf.albedo(wo) else {
             if subject.laws.albedo == Albedo::ClosedForm {
                 worst.observe(f64::INFINITY, || format!("{}: None", subject.at_view(wo)));

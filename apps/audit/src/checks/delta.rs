@@ -89,6 +89,7 @@ fn bisect<T: Scalar>(
 /// ```text
 /// reflection      wi = (−x, −y, z)
 /// refraction      η wi.xy = −wo.xy (Snell's law), |wi| = 1; η = 1 passes straight through
+/// index           seen from the other side it is 1/η
 /// probabilities   Σ p ≤ 1, and Σ p = 1 where there is nothing but delta lobes and all are drawn
 /// energy          Σ weight · p (η² if across) ≤ 1 where promised
 /// ```
@@ -112,6 +113,9 @@ pub(super) fn check<T: Scalar>(subject: &Subject<T>, context: &Context) -> Outco
         for lobe in &lobes {
             let error = misdirection(wo, lobe).to_f64();
             worst.observe(error / ulp, || subject.at(wo, lobe.wi));
+            if let Some(error) = index_error(case, wo, lobe) {
+                worst.observe(error / ulp, || format!("{}: index", subject.at(wo, lobe.wi)));
+            }
         }
         let total: f64 = lobes.iter().map(|l| l.probability).sum();
         let unaccounted = if !kinds.continuous && complete(case, wo) {
@@ -128,6 +132,17 @@ pub(super) fn check<T: Scalar>(subject: &Subject<T>, context: &Context) -> Outco
         }
     }
     worst.within_if_any(16.0, "ulp of 1")
+}
+
+/// How far η of a refracted direction and of the way back are from being inverse; `None` where there is no way
+/// across or back.
+fn index_error<T: Scalar>(case: &Case<T>, wo: Vec3<T>, lobe: &DeltaLobe<T>) -> Option<f64> {
+    let across = |w: Vec3<T>, wi: Vec3<T>| (w.z() < T::ZERO) != (wi.z() < T::ZERO);
+    if !across(wo, lobe.wi) {
+        return None;
+    }
+    let back = lobes_of(case, lobe.wi).into_iter().filter(|b| across(lobe.wi, b.wi));
+    back.map(|b| (b.eta.to_f64() * lobe.eta.to_f64() - 1.0).abs()).reduce(f64::min)
 }
 
 /// No draw over the range of `u_lobe`, its ends included, is without a sample.

@@ -1,7 +1,8 @@
 //! Half vectors of Ashikhmin and Shirley's model, large exponents.
 
 use etendue_brdf::{Exponent, PhongHalfVectors};
-use etendue_math::{Real, glam::Vec3};
+use etendue_math::Real;
+use etendue_math::glam::{DVec3, Vec3};
 
 use super::{HardCase, decades, relative};
 use crate::generators::uniforms;
@@ -43,25 +44,34 @@ fn lobe<T: Real>([nu, nv]: [f32; 2]) -> Option<PhongHalfVectors<T>> {
     Some(PhongHalfVectors::new(exponent(nu)?, exponent(nv)?))
 }
 
-/// Densities at half vectors from the normal to four widths from it, `f32` against `f64` for the same numbers, for
-/// exponents from 10 to 1e6. Bound: 1.3e-6, some ten ulp.
+/// Densities at half vectors from the normal to four widths from it, `f32` against the power of the sine in `f64` for
+/// the same numbers, for exponents from 10 to 1e6. Bound: 1.3e-6, some ten ulp.
 fn eval_sweep(form: fn(&PhongHalfVectors<f32>, [f32; 2], Vec3) -> f32) -> Outcome {
     let mut worst = Worst::default();
     for nu in decades(1.0, 6.0, 21) {
         for ratio in [1.0, 0.1] {
             let n = [nu, nu * ratio];
-            let (Some(narrow), Some(wide)) = (lobe::<f32>(n), lobe::<f64>(n)) else { continue };
+            let Some(narrow) = lobe::<f32>(n) else { continue };
             for widths in decades(-3.0, 0.6, 40).chain([0.0]) {
                 let slope = f64::from(widths) / f64::from(nu).sqrt();
                 let z = 1.0 / (1.0 + slope * slope).sqrt();
                 let (sin, cos) = Real::sin_cos(0.9);
                 let h = Vec3::new((slope * z * cos) as f32, (slope * z * sin) as f32, z as f32);
-                let want = wide.pdf(h.as_dvec3());
+                let want = power_of_sine(n.map(f64::from), h.as_dvec3());
                 worst.observe(relative(form(&narrow, n, h), want), || format!("n {n:?}, h {h:?}"));
             }
         }
     }
     worst.within(1.3e-6, "relative")
+}
+
+/// `cosᵉ θ = (1 − sin² θ)^(e/2)` with the sine from the tangent plane, of a vector of any length.
+fn power_of_sine([nu, nv]: [f64; 2], h: DVec3) -> f64 {
+    let (x2, y2) = (h.x * h.x, h.y * h.y);
+    let s2 = x2 + y2;
+    let exponent = if s2 > 0.0 { (nu * x2 + nv * y2) / s2 } else { 0.0 };
+    let power = Real::exp(0.5 * exponent * Real::ln_1p(-s2 / (s2 + h.z * h.z)));
+    ((nu + 1.0) * (nv + 1.0)).sqrt() / (2.0 * f64::PI) * power
 }
 
 fn power_of_cosine([nu, nv]: [f32; 2], h: Vec3) -> f32 {

@@ -8,12 +8,16 @@ mod adapter;
 mod diffuse;
 mod fresnel;
 mod layered;
+mod measured;
 mod microfacet;
 mod openpbr;
 mod phong;
+mod principled;
+mod radiometry;
 mod rough;
 mod sampling;
 mod smooth;
+mod walks;
 
 /// A bug and where to put it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -26,7 +30,7 @@ pub struct Mutation {
     pub find: &'static str,
     /// The text in its place.
     pub replace: &'static str,
-    /// What of the audit is run: models and checks whose names contain one of these.
+    /// What of the audit is run: models and checks as `--filter` names them.
     pub filters: &'static [&'static str],
 }
 
@@ -36,13 +40,17 @@ pub fn all() -> Vec<Mutation> {
         sampling::MUTATIONS,
         fresnel::MUTATIONS,
         microfacet::MUTATIONS,
+        walks::MUTATIONS,
         diffuse::MUTATIONS,
         smooth::MUTATIONS,
         rough::MUTATIONS,
         layered::MUTATIONS,
         openpbr::MUTATIONS,
         phong::MUTATIONS,
+        principled::MUTATIONS,
+        measured::MUTATIONS,
         adapter::MUTATIONS,
+        radiometry::MUTATIONS,
     ]
     .concat()
 }

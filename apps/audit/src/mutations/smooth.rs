@@ -64,6 +64,27 @@ pub(super) const MUTATIONS: &[Mutation] = &[
         file: "crates/brdf/src/smooth/absorbing_slab.rs",
         find: "let cos_t = g / self.eta;",
         replace: "let cos_t = cos + C::Real::ZERO * g;",
-        filters: &["absorbing-slab"],
+        filters: &["absorbing-slab", "AbsorbingSlab"],
+    },
+    Mutation {
+        fault: "slab's reflections absorbed on one way: p for p²",
+        file: "crates/brdf/src/smooth/absorbing_slab.rs",
+        find: "(lose + pass * t) * (one + r * pass)",
+        replace: "(lose + pass * t) * (one + r)",
+        filters: &["absorbing-slab", "AbsorbingSlab"],
+    },
+    Mutation {
+        fault: "slab's second face without its transmission: lost factor",
+        file: "crates/brdf/src/smooth/absorbing_slab.rs",
+        find: "(pass * t * (t / sum)).min(one)",
+        replace: "(pass * (t / sum)).min(one)",
+        filters: &["absorbing-slab", "AbsorbingSlab"],
+    },
+    Mutation {
+        fault: "slab's mirror share from one face: lost term",
+        file: "crates/brdf/src/smooth/absorbing_slab.rs",
+        find: "C::Real::TWO * pass * pass * t;",
+        replace: "pass * pass * t;",
+        filters: &["absorbing-slab", "AbsorbingSlab"],
     },
 ];
