@@ -60,14 +60,13 @@ pub(crate) fn conductor_of_valid<T: Real>(c: T, eta: T, k: T) -> T {
     let sum2 = (sum * sum).max(T::MIN_POSITIVE);
     // a² − c²: its factor a − c cancels only where a ≈ c; there d + b² is the small number itself.
     let difference = if b < T::HALF { d + b2 } else { (a - c) * sum };
-    let (ac, bc2) = (a * c, b2 * c2);
-    let plus = ac + s2;
+    let bc2 = b2 * c2;
+    let (plus, minus) = (a * c + s2, a * c - s2);
     let denominator = plus * plus + bc2;
-    // Rs and Rp share a factor, and half the sum of (a c ± s²)² is (a c)² + s⁴: F = Rs ½ (1 + Rp/Rs), over
-    // one denominator.
-    let numerator = (difference * difference + b2 * sum2) * (ac * ac + s2 * s2 + bc2);
+    // Rs and Rp share a factor: F = ½ Rs (1 + Rp/Rs), over one denominator, whose rounding cancels.
+    let numerator = (difference * difference + b2 * sum2) * (denominator + (minus * minus + bc2));
     // 0/0 is grazing incidence on a matched index, where the minimum with NaN is 1 as well.
-    (numerator / (sum2 * (sum2 + b2) * denominator)).min(T::ONE)
+    (T::HALF * numerator / (sum2 * (sum2 + b2) * denominator)).min(T::ONE)
 }
 
 #[cfg(test)]
