@@ -1,16 +1,20 @@
 #!/usr/bin/env python3
 """What each model costs on a microcontroller: bytes of flash and instructions per call.
 
-usage: cost.py [MODEL ...]        prints the tables of docs/embedded.md
+usage: cost.py [--markdown FILE] [MODEL ...]
 
+Prints a table for each board; --markdown writes them into FILE instead, between the lines `begin cost` and `end cost`.
 Flash is the size of a program that evaluates the model (value and density), or also samples it, less the size of the same program without a
 model, both linked with `lto = "fat"`. The float functions that a model needs are part of its cost, and on the
 Cortex-M0 the floating-point operations that the program without it does not have.
 Instructions are those of a simulated processor (`qemu-system-arm -icount`), means over 32 pairs of
 directions above the surface, in f32, compiled with opt-level 3: not cycles, but the same in every run.
+A model that does not fit into the board's memory ends the run with an error.
+Three builds and a run per model and board, some seconds each.
 
 Needs qemu-system-arm and the Rust targets thumbv7em-none-eabihf and thumbv6m-none-eabi.
 """
+import argparse
 import os
 import re
 import struct
@@ -23,6 +27,7 @@ BOARDS = [
     ("Cortex-M4F", "thumbv7em-none-eabihf", "mps2-an386", "cortex-m4"),
     ("Cortex-M0", "thumbv6m-none-eabi", "microbit", "cortex-m0"),
 ]
+BEGIN, END = "<!-- begin cost -->\n", "<!-- end cost -->\n"
 
 
 def specimens():
@@ -57,20 +62,38 @@ def instructions(path, machine, cpu):
     return re.search(r"eval_pdf (\d+) sample (\d+)", output).groups()
 
 
-def main():
-    models = sys.argv[1:] or specimens()
-    empty = {(target, level): flash(build("", target, level)) for _, target, _, _ in BOARDS for level in "s3"}
+def row(model, target, machine, cpu, empty):
+    sizes = []
+    for level, calls in (("s", "eval"), ("s", ""), ("3", "")):
+        program = build(model, target, level, calls)
+        sizes.append(str(flash(program) - empty[level]))
+    return "| " + " | ".join([model, *sizes, *instructions(program, machine, cpu)]) + " |\n"
+
+
+def tables(models):
     for name, target, machine, cpu in BOARDS:
-        print(f"\n{name} (`{target}`); the program without a model has {empty[target, 's']} bytes with `s`, {empty[target, '3']} with 3.\n")
-        print("| model | eval alone, `s` | with sample, `s` | with sample, 3 | instructions of eval | of sample |")
-        print("| --- | ---: | ---: | ---: | ---: | ---: |")
+        empty = {level: flash(build("", target, level)) for level in "s3"}
+        yield f"\n{name}; the program without a model has {empty['s']} bytes with `s`, {empty['3']} with 3:\n\n"
+        yield "| model | eval alone, `s` | with sample, `s` | with sample, 3 | instructions of eval | of sample |\n"
+        yield "| --- | ---: | ---: | ---: | ---: | ---: |\n"
         for model in models:
-            sizes = [
-                flash(build(model, target, level, calls)) - empty[target, level]
-                for level, calls in (("s", "eval"), ("s", ""), ("3", ""))
-            ]
-            counts = instructions(build(model, target, "3"), machine, cpu)
-            print("|", " | ".join([model, *map(str, sizes), *counts]), "|", flush=True)
+            yield row(model, target, machine, cpu, empty)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--markdown", metavar="FILE")
+    parser.add_argument("models", nargs="*", metavar="MODEL")
+    options = parser.parse_args()
+    text = ""
+    for line in tables(options.models or specimens()):
+        text += line
+        print(line, end="", file=sys.stderr if options.markdown else sys.stdout, flush=True)
+    if options.markdown:
+        with open(options.markdown, encoding="utf-8") as file:
+            before, rest = file.read().split(BEGIN)
+        with open(options.markdown, "w", encoding="utf-8") as file:
+            file.write(before + BEGIN + text + "\n" + END + rest.split(END)[1])
 
 
 if __name__ == "__main__":

@@ -6,13 +6,18 @@
 // that are in favour of this program: the distribution is GGX at compile time, there are no masks for
 // inactive lanes, no textures and no virtual calls.
 //
-// usage: rough_conductor nothing|eval|pdf|eval_pdf|sample rgb|f32 COUNT; prints nanoseconds per call.
+// usage: rough_conductor nothing|eval|pdf|eval_pdf|sample|results rgb|f32 COUNT INPUTS
+//
+// INPUTS is what étendue's example `calls` prints for `results`: a line per pair of directions, whose first eight numbers are
+// taken here. Prints nanoseconds per call, or for `results` a line each: value and density for the pair, weight and
+// density for the direction that étendue sampled, and for the one sampled here its weight and density and what `eval`
+// and `pdf` say of it.
 #include <chrono>
 #include <cmath>
-#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <fstream>
 #include <vector>
 
 struct Vector { float x, y, z; };
@@ -158,35 +163,23 @@ template <int N> struct RoughConductor {
     }
 };
 
-struct Inputs { Vector wo, wi; float u, v; };
+// Directions, uniforms, and étendue's results of them: value, density; direction, weight and density of the sample.
+struct Inputs { Vector wo, wi; float u, v, value, pdf; Vector sampled; float weight, sampled_pdf; };
 
 template <class T> static inline void keep(const T &value) { asm volatile("" : : "r"(&value) : "memory"); }
 
-static float uniform(std::uint64_t &state) {
-    state = state * 6364136223846793005ull + 1442695040888963407ull;
-    return (float)(state >> 40) * 0x1p-24f;
-}
-
-template <int N> static int run(const char *operation, long count) {
+template <int N> static int run(const char *operation, long count, const std::vector<Inputs> &inputs) {
     RoughConductor<N> model = {0.3f, 0.2f, {}, {}};
     for (int i = 0; i < N; ++i)
         model.eta.c[i] = 0.24f, model.k.c[i] = 3.34f;
-    std::uint64_t state = 1;
-    std::vector<Inputs> inputs(256);
-    for (Inputs &i : inputs) {
-        auto direction = [&] {
-            Vector w = {2.0f * uniform(state) - 1.0f, 2.0f * uniform(state) - 1.0f, uniform(state)};
-            return normalize(w);
-        };
-        i = {direction(), direction(), uniform(state), uniform(state)};
-    }
     auto time = [&](auto call) {
         auto start = std::chrono::steady_clock::now();
-        for (long n = 0; n < count; n += 256)
+        long calls = 0;
+        for (; calls < count; calls += (long)inputs.size())
             for (const Inputs &i : inputs)
                 call(i);
         std::chrono::duration<double, std::nano> elapsed = std::chrono::steady_clock::now() - start;
-        std::printf("%.2f\n", elapsed.count() / (double)((count + 255) / 256 * 256));
+        std::printf("%.2f\n", elapsed.count() / (double)calls);
         return 0;
     };
     keep(model);
@@ -200,12 +193,38 @@ template <int N> static int run(const char *operation, long count) {
         return time([&](const Inputs &i) { keep(model.eval_pdf(i.wo, i.wi)); });
     if (!std::strcmp(operation, "sample"))
         return time([&](const Inputs &i) { keep(model.sample(i.wo, {i.u, i.v})); });
+    if (!std::strcmp(operation, "results")) {
+        for (const Inputs &i : inputs) {
+            auto at = [&](Vector w) { return typename RoughConductor<N>::Pair{model.eval(i.wo, w), model.pdf(i.wo, w)}; };
+            auto pair = at(i.wi), theirs = at(i.sampled);
+            auto sample = model.sample(i.wo, {i.u, i.v});
+            auto own = at(sample.wo);
+            std::printf("%.9g %.9g %.9g %.9g %.9g %.9g %.9g %.9g\n", pair.value.c[0] / i.wi.z, pair.pdf,
+                        theirs.value.c[0] / theirs.pdf, theirs.pdf, sample.weight.c[0], sample.pdf,
+                        own.value.c[0] / own.pdf, own.pdf);
+        }
+        return 0;
+    }
     return 2;
 }
 
 int main(int argc, char **argv) {
-    if (argc != 4)
+    if (argc != 5)
+        return 2;
+    std::vector<Inputs> inputs;
+    std::ifstream file(argv[4]);
+    static_assert(sizeof(Inputs) == 15 * sizeof(float), "a line has fifteen numbers");
+    for (float numbers[15]; ;) {
+        for (float &x : numbers)
+            file >> x;
+        if (!file)
+            break;
+        Inputs i;
+        std::memcpy(&i, numbers, sizeof i);
+        inputs.push_back(i);
+    }
+    if (inputs.empty())
         return 2;
     long count = std::atol(argv[3]);
-    return !std::strcmp(argv[2], "rgb") ? run<3>(argv[1], count) : run<1>(argv[1], count);
+    return !std::strcmp(argv[2], "rgb") ? run<3>(argv[1], count, inputs) : run<1>(argv[1], count, inputs);
 }

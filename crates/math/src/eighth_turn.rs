@@ -36,7 +36,8 @@ mod tests {
 
     #[test]
     fn single_precision_is_double_precision_rounded() {
-        for i in -10_000..=10_000 {
+        // An interpreter tries a few of them.
+        for i in (-10_000..=10_000).step_by(if cfg!(miri) { 1250 } else { 1 }) {
             let x = i as f32 / 10_000.0;
             let (sin, cos) = x.sin_cos_eighth_turn();
             let (want_sin, want_cos) = f64::from(x).sin_cos_eighth_turn();

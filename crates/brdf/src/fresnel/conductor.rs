@@ -48,7 +48,8 @@ pub fn conductor<T: Real>(cos_i: T, eta: T, k: T) -> T {
 pub(crate) fn conductor_of_valid<T: Real>(c: T, eta: T, k: T) -> T {
     let s2 = (T::ONE - c) * (T::ONE + c);
     let d = (eta - T::ONE) * (eta + T::ONE) - k * k;
-    let t = d + c * c;
+    let c2 = c * c;
+    let t = d + c2;
     let product = eta * k;
     let root = (t * t + T::lit(4.0) * product * product).sqrt();
     let larger = (T::HALF * (root + t.abs())).sqrt();
@@ -59,10 +60,10 @@ pub(crate) fn conductor_of_valid<T: Real>(c: T, eta: T, k: T) -> T {
     let sum2 = (sum * sum).max(T::MIN_POSITIVE);
     // a² − c²: its factor a − c cancels only where a ≈ c; there d + b² is the small number itself.
     let difference = if b < T::HALF { d + b2 } else { (a - c) * sum };
-    let bc2 = b2 * c * c;
+    let bc2 = b2 * c2;
     let (plus, minus) = (a * c + s2, a * c - s2);
     let denominator = plus * plus + bc2;
-    // Rs and Rp share a factor: F = ½ Rs (1 + Rp/Rs), over one denominator.
+    // Rs and Rp share a factor: F = ½ Rs (1 + Rp/Rs), over one denominator, whose rounding cancels.
     let numerator = (difference * difference + b2 * sum2) * (denominator + (minus * minus + bc2));
     // 0/0 is grazing incidence on a matched index, where the minimum with NaN is 1 as well.
     (T::HALF * numerator / (sum2 * (sum2 + b2) * denominator)).min(T::ONE)
