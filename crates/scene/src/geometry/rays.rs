@@ -83,7 +83,9 @@ impl Geometry {
             #[cfg(target_arch = "x86_64")]
             Backend::Sse2(_) => task.run(self),
             #[cfg(target_arch = "x86_64")]
-            Backend::Avx2(_) => self.backend.run(TaskKernel { geometry: self, task }),
+            Backend::Avx2(_) | Backend::Avx512(_) => {
+                self.backend.run(TaskKernel { geometry: self, task })
+            }
         }
     }
 }

@@ -12,6 +12,9 @@
 //! | `traverse` | closest and any hit |
 //! | `simd` | eight floats at a time on what the processor offers, and a stack that is not zeroed: the only `unsafe` code |
 //!
+//! Rays are checked before they come here: a NaN constrains nothing, so that such a ray would enter
+//! empty boxes as well, which stand for the root, and go round for ever.
+//!
 //! # What has been tried and is not here
 //! Speed relative to the same code without the change, on an AVX2 processor, on a box of 32 triangles
 //! and on scans of 70 000 to 100 000:
@@ -27,6 +30,13 @@
 //! * a way out of the triangle test before its division where no edge functions fit: 0.98–1.0 times;
 //! * the longest axis of a ray from a table instead of by comparisons: 0.88–0.98 times;
 //! * a product with the reciprocal for the shear instead of a division: no difference.
+//!
+//! The same on an AVX-512 processor, in the box:
+//!
+//! * the closest hit kept lane by lane and picked at the end, with no branch on whether a block is hit:
+//!   0.95 times. A quarter fewer branches are mispredicted, but every block waits for the one before;
+//! * that, and all five blocks in turn without a look at their boxes: 0.86 times;
+//! * the ray handed to objects by value, so that no copy of it is in memory: no difference.
 
 mod binary;
 mod block;

@@ -6,7 +6,7 @@ use alloc::vec::Vec;
 use etendue_math::Real;
 use etendue_math::glam::{DVec3, Vec3};
 
-use super::{Random, one_of_each, soup, sphere_mesh};
+use super::{Random, one_of_each, soup};
 use crate::geometry::bvh::simd::Backend;
 use crate::geometry::{
     Geometry, GeometryBuilder, Hit, Ray, Shape, Sphere, Transform, TriangleMesh, triangle,
@@ -178,19 +178,42 @@ fn an_empty_scene_is_empty() {
 
 #[test]
 fn invalid_rays_hit_nothing() {
-    let g = geometry([Shape::Mesh(sphere_mesh(1))]);
-    for (origin, direction) in [
-        (Vec3::NAN, Vec3::X),
-        (Vec3::ZERO, Vec3::NAN),
-        (Vec3::ZERO, Vec3::ZERO),
-        (Vec3::INFINITY, -Vec3::ONE),
-        (Vec3::ZERO, Vec3::splat(f32::INFINITY)),
-    ] {
-        assert_eq!(g.intersect(&Ray::new(origin, direction)), None);
+    // One of each shape by itself and, as a group, through an instance; triangles at right angles and
+    // askew, seen from their own plane too.
+    let mut builder = GeometryBuilder::new();
+    let (group, _) = builder.add_group(one_of_each(&Transform::IDENTITY).to_vec());
+    builder.add_instance(group, Random(6).similarity(1.0));
+    for shape in one_of_each(&Transform::IDENTITY) {
+        builder.add_shape(shape);
     }
-    let ray = Ray::new(Vec3::ZERO, Vec3::X);
-    for t_max in [0.0, -1.0, f32::NAN] {
-        assert!(!g.occluded(&Ray { t_max, ..ray }));
+    builder.add_shape(Shape::Mesh(soup(&mut Random(7), 100)));
+    let mut g = builder.build();
+    // Every ray with one bad component, along every axis, and with several.
+    let bad = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY];
+    let mut invalid = vec![Ray::new(Vec3::ZERO, Vec3::ZERO)];
+    for x in bad {
+        for set in [1, 2, 4, 3, 5, 6, 7] {
+            let spoilt = |v: Vec3| {
+                Vec3::from_array([0, 1, 2].map(|i| if set >> i & 1 == 1 { x } else { v[i] }))
+            };
+            for (origin, direction) in
+                [(Vec3::ZERO, Vec3::X), (Vec3::new(0.3, 0.25, -0.1), Vec3::new(0.3, -0.5, 0.7))]
+            {
+                invalid.push(Ray::new(spoilt(origin), direction));
+                invalid.push(Ray::new(origin, spoilt(direction)));
+                invalid.push(Ray::new(spoilt(origin), spoilt(direction)));
+            }
+        }
+    }
+    for t_max in [0.0, -0.0, -1.0, f32::NAN, f32::NEG_INFINITY] {
+        invalid.push(Ray { t_max, ..Ray::new(Vec3::ZERO, Vec3::X) });
+    }
+    for backend in Backend::all() {
+        g.backend = backend;
+        for ray in &invalid {
+            assert_eq!(g.intersect(ray), None, "{backend:?} {ray:?}");
+            assert!(!g.occluded(ray), "{backend:?} {ray:?}");
+        }
     }
 }
 

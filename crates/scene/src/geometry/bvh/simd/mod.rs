@@ -6,6 +6,8 @@
 
 #[cfg(target_arch = "x86_64")]
 mod avx2;
+#[cfg(target_arch = "x86_64")]
+mod avx512;
 mod portable;
 #[cfg(target_arch = "x86_64")]
 mod sse2;
@@ -68,6 +70,8 @@ pub(in crate::geometry) enum Backend {
     Sse2(sse2::Sse2),
     #[cfg(target_arch = "x86_64")]
     Avx2(avx2::Avx2),
+    #[cfg(target_arch = "x86_64")]
+    Avx512(avx512::Avx512),
 }
 
 impl Backend {
@@ -75,7 +79,11 @@ impl Backend {
     pub(in crate::geometry) fn detect() -> Self {
         #[cfg(target_arch = "x86_64")]
         {
-            avx2::Avx2::detect().map_or(Self::Sse2(sse2::Sse2::new()), Self::Avx2)
+            match (avx512::Avx512::detect(), avx2::Avx2::detect()) {
+                (Some(simd), _) => Self::Avx512(simd),
+                (None, Some(simd)) => Self::Avx2(simd),
+                (None, None) => Self::Sse2(sse2::Sse2::new()),
+            }
         }
         #[cfg(not(target_arch = "x86_64"))]
         {
@@ -91,6 +99,7 @@ impl Backend {
         {
             all.push(Self::Sse2(sse2::Sse2::new()));
             all.extend(avx2::Avx2::detect().map(Self::Avx2));
+            all.extend(avx512::Avx512::detect().map(Self::Avx512));
         }
         all
     }
@@ -103,6 +112,8 @@ impl Backend {
             Self::Sse2(simd) => kernel.run(simd),
             #[cfg(target_arch = "x86_64")]
             Self::Avx2(simd) => simd.run(kernel),
+            #[cfg(target_arch = "x86_64")]
+            Self::Avx512(simd) => simd.run(kernel),
         }
     }
 }
