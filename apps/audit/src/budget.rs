@@ -48,6 +48,6 @@ impl Budget {
         pilot: 1 << 13,
         pairs: 100_000,
         draws: 100_000,
-        swept: 200_000_000,
+        swept: 110_000_000,
     };
 }
