@@ -122,7 +122,7 @@ pub(super) const MUTATIONS: &[Mutation] = &[
     Mutation {
         fault: "conductor with s² for c²: swapped angle",
         file: "crates/brdf/src/fresnel/conductor.rs",
-        find: "let t = d + c * c;",
+        find: "let t = d + c2;",
         replace: "let t = d + s2;",
         filters: &["smooth-conductor", "rough-conductor", "fresnel::conductor"],
     },
