@@ -3,7 +3,8 @@
 
 usage: rough_conductor.py [--runs 120]
 
-Compiles rough_conductor.cpp (see there) with `g++ -O3 -fno-math-errno` and étendue's example `calls` in release, and calls
+Compiles rough_conductor.cpp (see there) with `g++ -O3 -fno-math-errno` and étendue's example `calls` in release, both for AVX, as
+the renderer's tiles are (without it a root waits for whatever was in its register before), and calls
 `eval`, `pdf` and `sample` of both over the same 256 pairs of directions above the surface: α 0.3 × 0.2, separable masking,
 copper, f32 in one channel and in three. First the results are compared: it fails where they differ by more than rounding.
 Then two measures: instructions per call (valgrind), and nanoseconds per call, the least of many runs of a
@@ -52,12 +53,13 @@ def main():
     parser.add_argument("--runs", type=int, default=120)
     options = parser.parse_args()
     build = ["cargo", "build", "--quiet", "--release", "-p", "etendue-specimens", "--example", "calls"]
-    subprocess.run(build, cwd=ROOT, check=True)
-    ours = [os.path.join(ROOT, "target", "release", "examples", "calls"), "rough-conductor/separable"]
+    build += ["--target-dir", os.path.join(ROOT, "target", "avx")]
+    subprocess.run(build, cwd=ROOT, env=os.environ | {"RUSTFLAGS": "-C target-feature=+avx"}, check=True)
+    ours = [os.path.join(ROOT, "target", "avx", "release", "examples", "calls"), "rough-conductor/separable"]
     with tempfile.TemporaryDirectory() as folder:
         theirs = [os.path.join(folder, "peer")]
         source = os.path.join(ROOT, "tests", "peers", "rough_conductor.cpp")
-        subprocess.run(["g++", "-std=c++17", "-O3", "-fno-math-errno", "-o", *theirs, source], check=True)
+        subprocess.run(["g++", "-std=c++17", "-O3", "-mavx", "-fno-math-errno", "-o", *theirs, source], check=True)
         results = subprocess.check_output([*ours, "results", "f32", "256"], text=True)
         inputs = os.path.join(folder, "inputs")
         with open(inputs, "w", encoding="utf-8") as file:

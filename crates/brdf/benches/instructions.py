@@ -50,7 +50,7 @@ def table(backend, models):
     yield "| model | f32: " + " | ".join(OPERATIONS) + " | f64: " + " | ".join(OPERATIONS) + " |\n"
     yield "| --- |" + " ---: |" * 2 * len(OPERATIONS) + "\n"
     for model in models:
-        cells = [f"{count:.0f}" for count in per_call(program, model)]
+        cells = [f"{count:.0f}".replace("-", "−") for count in per_call(program, model)]
         yield "| " + " | ".join([model, *cells]) + " |\n"
 
 

@@ -227,7 +227,7 @@ mod tests {
         weights.iter_mut().step_by(2).for_each(|w| *w = 1.0);
         let mut cdf = [0.0_f32; 4000];
         let table = Tabulated1d::build(&weights, &mut cdf).unwrap();
-        for &c in table.cdf {
+        for &c in table.cdf.iter().step_by(if cfg!(miri) { 499 } else { 1 }) {
             for u in [c, c.next_down(), c.next_up()] {
                 let (x, pdf) = table.sample(u);
                 assert_eq!(pdf, table.pdf(x), "{u}");

@@ -164,10 +164,9 @@ impl<C: Spectrum> Bsdf for Plastic<C> {
             }
             (wi, self.base.scale(t / probability), Density::Continuous(pdf))
         };
-        if !above(wi) || weight.is_black() {
-            return None;
-        }
-        Some(Sample { wi, weight, density, eta: one })
+        // Not finite for a uniform below 0 where the mirror has no probability.
+        let valid = above(wi) && weight.is_finite() && !weight.is_black();
+        valid.then_some(Sample { wi, weight, density, eta: one })
     }
 
     #[inline]
@@ -225,6 +224,15 @@ mod tests {
             Reflectance::<f32>::white(),
             InternalScattering::NonLinear,
         ));
+    }
+
+    #[test]
+    fn a_mirror_without_probability_is_not_sampled() {
+        // No uniform is below 0, but what a caller passes may be.
+        let black = Reflectance::new(0.0).unwrap();
+        let model = model(0.8, InternalScattering::Linear).with_specular_reflectance(black);
+        assert!(model.sample(DVec3::Z, -1.0, [0.5, 0.5]).is_none());
+        assert!(model.sample(DVec3::Z, 0.0, [0.5, 0.5]).is_some());
     }
 
     #[test]
