@@ -30,15 +30,15 @@ impl Budget {
         draws: 200,
         swept: 1 << 15,
     };
-    /// The default of the command: well under a minute on two cores.
+    /// The default of the command: a minute and a half on two cores.
     pub const SMOKE: Self = Self {
         name: "smoke",
-        viewers: 6,
+        viewers: 4,
         samples: 1 << 16,
         pilot: 1 << 12,
         pairs: 10_000,
         draws: 10_000,
-        swept: 1 << 20,
+        swept: 1 << 19,
     };
     /// `--exhaustive`: a long run that looks for what the smoke run has too few points to meet.
     pub const EXHAUSTIVE: Self = Self {
