@@ -18,7 +18,7 @@ failures=0
 attack() { # TARGET MAX_LEN
   nice cargo +nightly fuzz run "$1" -- -max_total_time="$seconds" -max_len="$2" -len_control=0 \
     -timeout=20 -print_final_stats=1 2>&1 | tee fuzz/artifacts/log |
-    sed -n 's/stat::number_of_executed_units: */executions /p; /panicked/,/stack backtrace/p' || failures=$((failures + 1))
+    sed -n 's/stat::number_of_executed_units: */executions /p; /panicked/,/stack backtrace/p; /ERROR: libFuzzer/p' || failures=$((failures + 1))
 }
 
 mkdir -p fuzz/artifacts

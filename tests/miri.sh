@@ -6,7 +6,7 @@
 # * the unit tests of etendue-math and etendue-sampling but for statistics, where cfg(miri) with fewer arguments; on the libm
 #   backend, and on the std backend, whose sines, powers and exponentials Miri varies in their last bits on purpose: a test
 #   whose tolerance holds for one library only fails there;
-# * the bits of every function and model over 16 inputs in f32 and f64: all code paths of the three crates, on libm;
+# * the bits of every function and model over 64 inputs in f32 and f64: all code paths of the three crates, on libm;
 # * every sixteenth row of exact values, on libm.
 # The statistical tests, and the laws that etendue-brdf integrates, call the same functions millions of times, which would
 # take an interpreter hours: they are left out.

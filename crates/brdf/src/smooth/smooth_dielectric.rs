@@ -96,7 +96,8 @@ impl<C: Spectrum> Bsdf for SmoothDielectric<C> {
                 eta: one,
             },
         };
-        if sample.weight.is_black() {
+        // A uniform outside [0, 1) may choose what has no probability.
+        if sample.weight.is_black() || sample.density == Density::Delta(C::Real::ZERO) {
             return None;
         }
         Some(if below { Sample { wi: sample.wi.flip_z(), ..sample } } else { sample })
@@ -153,6 +154,13 @@ mod tests {
             // F + (1 − F), each a few roundings.
             assert!((sum - 1.0).abs() < 1e-14, "{z} {sum}");
         }
+    }
+
+    #[test]
+    fn what_has_no_probability_is_not_sampled() {
+        // A matched index reflects nothing; uniforms are not negative, but what a caller passes may be.
+        assert!(glass(1.0).sample(DVec3::Z, -1.0, [0.0; 2]).is_none());
+        assert!(glass(1.0).sample(DVec3::Z, 0.0, [0.0; 2]).is_some());
     }
 
     #[test]
