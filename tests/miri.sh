@@ -3,16 +3,16 @@
 #
 # usage: tests/miri.sh [TARGET]
 #
-# * the unit tests of etendue-math and etendue-sampling but for statistics, where cfg(miri) with fewer arguments; on the libm
-#   backend, and on the std backend, whose sines, powers and exponentials Miri varies in their last bits on purpose: a test
-#   whose tolerance holds for one library only fails there;
+# * the unit tests of etendue-math and etendue-sampling but for statistics, with fewer arguments where cfg(miri); on the libm
+#   backend, and on std, whose sines, powers and exponentials Miri varies in their last bits on purpose: a test whose
+#   tolerance holds for one library only fails there;
 # * the bits of every function and model over 64 inputs in f32 and f64: all code paths of the three crates, on libm;
 # * every sixteenth row of exact values, on libm.
 # The statistical tests, and the laws that etendue-brdf integrates, call the same functions millions of times, which would
 # take an interpreter hours: they are left out.
 #
 # With a target such as s390x-unknown-linux-gnu the same runs on a big-endian processor.
-# Needs a nightly compiler and `rustup +nightly component add miri rust-src`. On a quiet core it takes some ten minutes.
+# Needs a nightly compiler and `rustup +nightly component add miri rust-src`.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 # The tests read files of exact values and of bits.
@@ -23,8 +23,7 @@ libm=(--no-default-features --features libm)
 statistics=()
 for name in evenly uncorrelated as_often_as flip a_digit_depends direction_numbers independent_points elementary_interval; do statistics+=(--skip "$name"); done
 
-for backend in libm std; do
-  cargo +nightly miri test "${target[@]}" --no-default-features --features "$backend" \
-    -p etendue-math -p etendue-sampling --lib -- "${statistics[@]}"
-done
+cargo +nightly miri test "${target[@]}" "${libm[@]}" -p etendue-math -p etendue-sampling --lib -- "${statistics[@]}"
+# An exponent of 70 makes 150 ε of the 3 ε that Miri adds to a logarithm.
+cargo +nightly miri test "${target[@]}" -p etendue-math -p etendue-sampling --lib -- "${statistics[@]}" --skip incomplete_beta
 cargo +nightly miri test "${target[@]}" "${libm[@]}" -p etendue-brdf --test bits --test golden
