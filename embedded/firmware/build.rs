@@ -1,4 +1,4 @@
-//! Memory of the board, rows of exact values, and the model whose cost is measured.
+//! Memory of the board, rows of exact values, the model whose cost is measured, and the part of the models hashed.
 
 #[path = "../../crates/brdf/tests/golden/bound.rs"]
 mod bound;
@@ -40,7 +40,7 @@ fn main() {
     println!("cargo:rustc-link-search={}", out.display());
     println!("cargo:rustc-link-arg-bins=-Tlink.x");
     fs::write(out.join("rows.rs"), rows()).unwrap();
-    for name in ["MODEL", "CALLS"] {
+    for name in ["MODEL", "CALLS", "PART"] {
         println!("cargo:rerun-if-env-changed={name}");
         println!("cargo:rustc-env={name}={}", env::var(name).unwrap_or_default());
     }
