@@ -61,6 +61,9 @@ impl core::iter::Sum for Integral {
 const POINTS: usize = 5;
 /// Twelve halvings make cells 4096 times smaller per axis; the partition has already zoomed in.
 const MAX_DEPTH: u32 = 12;
+/// A cell is quartered at least three times: its first estimates may agree because both miss a ridge, and then
+/// 0.7 % of a GGX lobe of width 0.02 seen from a cosine of 0.01 is lost.
+const MIN_DEPTH: u32 = 3;
 
 /// A product Gauss–Legendre rule, refined by quartering.
 #[derive(Clone, Copy, Debug)]
@@ -98,7 +101,8 @@ impl Cubature {
         let value: f64 = quarters.iter().map(|q| q.1).sum();
         let error = (value - whole).abs();
         // NaN compares false and would refine without end were it not for the depth.
-        if error <= tolerance || depth == 0 || value.is_nan() {
+        let deep = depth <= MAX_DEPTH - (MIN_DEPTH - 1);
+        if (error <= tolerance && deep) || depth == 0 || value.is_nan() {
             return Integral { value, error };
         }
         quarters
