@@ -30,7 +30,7 @@ impl Budget {
         draws: 200,
         swept: 1 << 15,
     };
-    /// The default of the command: a minute and a half on two cores.
+    /// The default of the command: some two minutes on two cores.
     pub const SMOKE: Self = Self {
         name: "smoke",
         viewers: 4,
