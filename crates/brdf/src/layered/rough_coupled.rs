@@ -23,7 +23,9 @@ use crate::{Bsdf, BsdfReal, BsdfVec, Lobes, Microfacets, Reflectance, Sample};
 /// * Laws: reciprocal; energy is conserved only as far as the rough share reflects what the smooth one would. The
 ///   facets lose what would scatter more than once, and at middle angles they gain a little, F being convex: the white
 ///   albedo reaches 1.0025 with isotropic GGX, 1.0053 with Beckmann, and 1.0163 with facets of α 1e-6 × 0.5
-///   (all at R0 = 0; measured over a grid of α, angles and indices).
+///   (all at R0 = 0; measured over a grid of α, angles and indices). With the exact F of an extreme index the gain
+///   is larger where the flat surface is seen near its Brewster angle and the facets are not: 1.39 for η = 100,
+///   GGX α 0.2, cos θo = 0.01.
 /// * Sampling: `u_lobe` chooses visible normals with probability `F / (F + Rm (1 − F))` of the means at θo, else
 ///   cosine-weighted; the density is that of the mixture. `None` from below.
 /// * The smooth limit is [`Coupled`](crate::Coupled), which [`AnyCoupled`](crate::AnyCoupled) chooses.
