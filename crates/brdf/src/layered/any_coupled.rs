@@ -5,7 +5,7 @@ use etendue_math::Spectrum;
 use super::coupled_interface::{self, CoupledInterface};
 use super::mirror_over_matte;
 use crate::registry::{Albedo, ModelInfo, parameter};
-use crate::rough::conductor::{either, rough_widths};
+use crate::rough::smooth_or_rough::{either, rough_widths};
 use crate::{
     Bsdf, BsdfReal, BsdfVec, Coupled, Distribution, Lobes, Masking, Microfacets, ParameterError,
     Reflectance, RoughCoupled, Sample,

@@ -3,7 +3,7 @@
 use etendue_math::{Real, Spectrum};
 
 use crate::registry::{Albedo, Energy, ModelInfo, Reciprocity, parameter};
-use crate::rough::conductor::{either, rough_widths};
+use crate::rough::smooth_or_rough::{either, rough_widths};
 use crate::{
     Bsdf, BsdfReal, BsdfVec, Distribution, InternalReflectance, InternalScattering, Ior, Lobes,
     Masking, ParameterError, Plastic, PlasticInterface, Reflectance, RoughPlastic, Sample,

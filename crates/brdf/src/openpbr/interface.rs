@@ -4,7 +4,7 @@ use etendue_math::Real;
 
 use crate::fresnel::RelativeIndex;
 use crate::microfacet::{CosineRow, DielectricTable};
-use crate::rough::conductor::rough_widths;
+use crate::rough::smooth_or_rough::rough_widths;
 use crate::{Distribution, Masking, Microfacets, ParameterError};
 
 /// The facets of a roughness and an anisotropy in `[0, 1]`; `None` for a mirror.

@@ -1,11 +1,12 @@
 //! Metal, smooth or rough by its roughness.
 
-use etendue_math::{Real, Spectrum};
+use etendue_math::Spectrum;
 
+use super::smooth_or_rough::{either, rough_widths};
 use crate::registry::{Albedo, Energy, ModelInfo, Reciprocity, parameter};
 use crate::{
-    Alpha, Bsdf, BsdfReal, BsdfVec, ComplexIor, Distribution, Lobes, Masking, Microfacets,
-    ParameterError, Reflectance, RoughConductor, Sample, SmoothConductor,
+    Bsdf, BsdfReal, BsdfVec, ComplexIor, Distribution, Lobes, Masking, Microfacets, ParameterError,
+    Reflectance, RoughConductor, Sample, SmoothConductor,
 };
 
 /// A conductor that is a mirror where its roughness is 0.
@@ -21,7 +22,7 @@ pub enum Conductor<C: Spectrum> {
 }
 
 impl<C: Spectrum> Conductor<C> {
-    /// Metal with widths `alpha = [αx, αy]`: smooth where both are below [`Alpha::RANGE`], 0 included.
+    /// Metal with widths `alpha = [αx, αy]`: smooth where both are below [`Alpha::RANGE`](crate::Alpha::RANGE), 0 included.
     ///
     /// # Errors
     /// [`ParameterError`] where α is negative, NaN or too large. A single width below the range is
@@ -48,30 +49,6 @@ impl<C: Spectrum> Conductor<C> {
         }
     }
 }
-
-/// Checked widths, or `None` for a smooth surface.
-pub(crate) fn rough_widths<T: Real>(
-    alpha: [T; 2],
-) -> Result<Option<[Alpha<T>; 2]>, ParameterError> {
-    let least = T::lit(Alpha::<T>::RANGE[0]);
-    for a in alpha {
-        if !(a >= T::ZERO) {
-            return Err(ParameterError::number("alpha", a, "in [0, 1e4]"));
-        }
-    }
-    if alpha[0] < least && alpha[1] < least {
-        return Ok(None);
-    }
-    Ok(Some([Alpha::new(alpha[0].max(least))?, Alpha::new(alpha[1].max(least))?]))
-}
-
-/// Forwards the interface to whichever variant is there.
-macro_rules! either {
-    ($self:ident, $model:ident => $call:expr; $($variant:ident),+) => {
-        match $self { $(Self::$variant($model) => $call),+ }
-    };
-}
-pub(crate) use either;
 
 impl<C: Spectrum> Bsdf for Conductor<C> {
     type Color = C;

@@ -2,7 +2,7 @@
 
 use etendue_math::Spectrum;
 
-use super::conductor::{either, rough_widths};
+use super::smooth_or_rough::{either, rough_widths};
 use crate::registry::{Albedo, Energy, ModelInfo, Reciprocity, parameter};
 use crate::{
     Bsdf, BsdfReal, BsdfVec, Distribution, Ior, Lobes, Masking, Microfacets, Null, ParameterError,

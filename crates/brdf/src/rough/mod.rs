@@ -6,6 +6,7 @@ pub(crate) mod kulla_conty;
 pub(crate) mod kulla_conty_dielectric;
 pub(crate) mod rough_conductor;
 pub(crate) mod rough_dielectric;
+pub(crate) mod smooth_or_rough;
 pub(crate) mod turquin;
 
 pub use conductor::Conductor;
