@@ -40,12 +40,15 @@ pub enum Width {
 }
 
 /// Whether light is lost in a model.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Loss {
     /// Some, or as far as is known.
     Some,
-    /// None: all that arrives leaves again.
-    None,
+    /// None: all that arrives leaves again, but for an error of the model's own tables.
+    None {
+        /// What that error may come to, as a part of 1.
+        within: f64,
+    },
 }
 
 /// A published formula for `f(wo, wi)`, read literally, in `f64`.
@@ -91,7 +94,12 @@ impl<T: Scalar> Case<T> {
 
     /// The same case, said to lose no light.
     pub fn lossless(self) -> Self {
-        Self { loss: Loss::None, ..self }
+        self.lossless_within(0.0)
+    }
+
+    /// The same case, said to lose no light but for an error that its documentation states.
+    pub fn lossless_within(self, within: f64) -> Self {
+        Self { loss: Loss::None { within }, ..self }
     }
 
     /// The same case with its published formula.

@@ -177,6 +177,12 @@ pub(super) fn rough_coupled<T: Scalar>() -> Vec<Case<T>> {
     };
     cases.push(gain(Distribution::Ggx, 0.15).published(&[(0.863_21, 1.0025)]));
     cases.push(gain(BECKMANN, 0.2).published(&[(0.927_3, 1.0053)]));
+    // An extreme index near its Brewster angle, to which the facets do not keep.
+    let extreme = valid(CoupledInterface::dielectric(ior::<T>(100.0)));
+    let surface = facets::<T>(Distribution::Ggx, [0.5; 2], Masking::HeightCorrelated);
+    let model = RoughCoupled::new(extreme, surface, reflectance::<T>(1.0));
+    let case = Case::new("ggx α 0.5, dielectric η 100, rm 1", model);
+    cases.push(case.published(&[(1.561_547, 1.418)]));
     let surface = facets::<T>(Distribution::Ggx, [0.2; 2], Masking::HeightCorrelated);
     for (name, interface) in interfaces::<T>() {
         for rm in [0.0, 1.0] {

@@ -97,7 +97,7 @@ pub(super) fn kulla_conty<T: Scalar>() -> Vec<Case<T>> {
     // The white furnace: nothing is lost at the widest lobe.
     let widest = facets::<T>(Distribution::Ggx, [1.0; 2], Masking::HeightCorrelated);
     let mirror = valid(KullaContyConductor::<T>::new(ComplexIor::perfect(), widest));
-    cases.push(Case::new("ggx α 1, white furnace", mirror).lossless().published(WHITE_FURNACE));
+    cases.push(white_furnace(mirror));
     cases
 }
 
@@ -105,8 +105,15 @@ pub(super) fn turquin<T: Scalar>() -> Vec<Case<T>> {
     let mut cases = compensated(TurquinConductor::<T>::new, textbook::Compensated::turquin);
     let widest = facets::<T>(Distribution::Ggx, [1.0; 2], Masking::HeightCorrelated);
     let mirror = valid(TurquinConductor::<T>::new(ComplexIor::perfect(), widest));
-    cases.push(Case::new("ggx α 1, white furnace", mirror).lossless().published(WHITE_FURNACE));
+    cases.push(white_furnace(mirror));
     cases
+}
+
+/// The widest perfect mirror: nothing is lost but for linear interpolation in the table, which misses up to
+/// 3e-4 between its outermost columns.
+fn white_furnace<T: Scalar>(mirror: impl Bsdf<Color = T> + Send + Sync + 'static) -> Case<T> {
+    let case = Case::new("ggx α 1, white furnace", mirror);
+    case.lossless_within(3e-4).published(WHITE_FURNACE)
 }
 
 /// Angles in rad and the albedo there.

@@ -34,6 +34,7 @@ pub use f82::F82Tint;
 pub(crate) use refraction::{Refraction, refract_at};
 pub use refraction::{refract, refract_about};
 pub(crate) use relative_index::RelativeIndex;
+pub(crate) use schlick::schlick_of_versine;
 pub use schlick::{f0_from_ior, ior_from_f0, schlick, schlick_transmittance};
 pub use textbook::{conductor_textbook, dielectric_textbook, schlick_gaussian, schlick_powf};
 

@@ -22,7 +22,14 @@ use super::checked_cosine;
 pub fn schlick<C: Spectrum>(f0: C, cos_i: C::Real) -> C {
     let one = <C::Real as Real>::ONE;
     let Some(c) = checked_cosine(cos_i) else { return C::black() };
-    let m5 = fifth_power(one - c);
+    schlick_of_versine(f0, one - c)
+}
+
+/// [`schlick`] of `m = 1 − c` in `[0, 1]`, for who knows m to more digits than `1 − c` leaves.
+#[inline(always)]
+pub(crate) fn schlick_of_versine<C: Spectrum>(f0: C, m: C::Real) -> C {
+    let one = <C::Real as Real>::ONE;
+    let m5 = fifth_power(m);
     f0.map(|f| if f >= C::Real::ZERO && f <= one { f + (one - f) * m5 } else { C::Real::ZERO })
 }
 

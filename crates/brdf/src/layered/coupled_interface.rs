@@ -4,7 +4,7 @@ use etendue_math::{Real, Spectrum};
 
 use crate::fresnel::{
     dielectric, dielectric_average_transmittance, dielectric_transmittance, schlick,
-    schlick_transmittance,
+    schlick_of_versine, schlick_transmittance,
 };
 use crate::registry::ParameterInfo;
 use crate::registry::parameter::named;
@@ -64,6 +64,16 @@ impl<C: Spectrum> CoupledInterface<C> {
     pub(super) fn reflectance(&self, cos: C::Real) -> C {
         match self.fresnel {
             Fresnel::Schlick { r0 } => schlick(r0, cos),
+            Fresnel::Dielectric { eta, .. } => C::splat(dielectric(cos, eta)),
+        }
+    }
+
+    /// F at a facet, of the cosine to it and of `versine = 1 − cos`, which two directions near each other know to
+    /// more digits: their `(1 − cos)⁵` would have none left.
+    #[inline(always)]
+    pub(super) fn facet_reflectance(&self, cos: C::Real, versine: C::Real) -> C {
+        match self.fresnel {
+            Fresnel::Schlick { r0 } => schlick_of_versine(r0, versine.min(C::Real::ONE)),
             Fresnel::Dielectric { eta, .. } => C::splat(dielectric(cos, eta)),
         }
     }
