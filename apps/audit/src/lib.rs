@@ -28,7 +28,6 @@ pub mod cases;
 pub mod checks;
 pub mod closed_forms;
 pub mod cubature;
-pub mod document;
 pub mod filter;
 pub mod furnace;
 pub mod generators;

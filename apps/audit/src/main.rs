@@ -11,12 +11,12 @@ use std::process::ExitCode;
 
 use clap::Parser;
 use etendue_audit::budget::Budget;
-use etendue_audit::document::with_part;
 use etendue_audit::filter::Filter;
 use etendue_audit::model_table::{Links, model_table};
 use etendue_audit::progress::Progress;
 use etendue_audit::report::{Report, Totals};
 use etendue_audit::{cases, checks, closed_forms, furnace, hard_cases, report, run};
+use etendue_report::document::with_part;
 
 /// Audits every reflection model: laws, densities, hostile inputs, in f32 and f64.
 #[derive(Parser)]

@@ -2,7 +2,7 @@
 
 use etendue_brdf::registry::{Albedo, Energy, MODELS, ModelInfo, Reciprocity};
 
-use crate::document::row;
+use etendue_report::document::row;
 
 /// How the table names the types.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -3,11 +3,11 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use etendue_audit::document::with_part;
 use etendue_audit::hard_cases::HARD_CASES;
 use etendue_audit::model_table::{Links, model_table};
 use etendue_audit::mutations;
 use etendue_brdf::registry::MODELS;
+use etendue_report::document::with_part;
 
 fn path(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(name)

@@ -14,8 +14,8 @@ use std::thread;
 use std::time::Instant;
 
 use clap::Parser;
-use etendue_audit::document::{row, with_part};
 use etendue_audit::mutations::{self, Mutation};
+use etendue_report::document::{row, with_part};
 use serde_json::Value;
 
 /// Seeds bugs into a copy of the workspace and sees that the audit finds every one.

@@ -8,10 +8,10 @@ use super::group::{groups, worst_of};
 use super::{FLOAT_BACKEND, Report, Totals};
 use crate::cases;
 use crate::checks::{self, SWEPT};
-use crate::document::row;
 use crate::hard_cases::HARD_CASES;
 use crate::measure::Measurement;
 use crate::run::Record;
+use etendue_report::document::row;
 
 /// The report as Markdown: summary, precision, laws, gains, hard cases, and every worst point.
 pub fn to_markdown(report: &Report) -> String {

@@ -3,7 +3,8 @@
 use etendue_math::Real;
 
 use super::lobe::Lobe;
-use super::svg::{Anchor, Extent, Svg};
+use etendue_report::AxisRange;
+use etendue_report::svg::{Anchor, Extent, Svg};
 
 /// What is drawn of one model.
 #[derive(Debug)]
@@ -72,9 +73,9 @@ fn polar(
         [centre[0] + radius * sin, centre[1] - radius * cos]
     };
     let peak = model.lobes.iter().flat_map(|l| &l.points).fold(0.0, |m: f64, p| m.max(p[1]));
-    let scale = Scale::up_to(peak);
-    for tick in scale.ticks().skip(1) {
-        let radius = RADIUS * tick / scale.end;
+    let scale = AxisRange::linear(peak);
+    for tick in scale.ticks().into_iter().skip(1) {
+        let radius = RADIUS * scale.place(tick);
         svg.arc("grid", centre, radius, extent);
         if peak > 0.0 {
             let label = scale.label(tick);
@@ -94,7 +95,7 @@ fn polar(
     for (pattern, (lobe, &degrees)) in model.lobes.iter().zip(angles).enumerate() {
         svg.line(&format!("viewer p{pattern}"), at(-degrees, RADIUS), at(-degrees, RADIUS - 14.0));
         if peak > 0.0 {
-            let points = lobe.points.iter().map(|&[angle, f]| at(angle, RADIUS * f / scale.end));
+            let points = lobe.points.iter().map(|&[angle, f]| at(angle, RADIUS * scale.place(f)));
             svg.polyline(&format!("curve c{colour} p{pattern}"), points);
         }
         for delta in &lobe.deltas {
@@ -135,9 +136,9 @@ impl Chart<'_> {
         let [x0, x1] = [left + 62.0, left + width - 22.0];
         let [y0, y1] = [top + CHART_HEIGHT - 44.0, top + 30.0];
         let peak = self.curves.iter().copied().flatten().fold(0.0, |m: f64, p| m.max(p[1]));
-        let scale = Scale::up_to(peak);
+        let scale = AxisRange::linear(peak);
         let at = |[degrees, value]: [f64; 2]| {
-            [x0 + (x1 - x0) * degrees / 90.0, y0 + (y1 - y0) * value / scale.end]
+            [x0 + (x1 - x0) * degrees / 90.0, y0 + (y1 - y0) * scale.place(value)]
         };
         svg.text("title", [f64::midpoint(x0, x1), top + 16.0], Anchor::Middle, self.title);
         for tick in scale.ticks() {
@@ -157,66 +158,5 @@ impl Chart<'_> {
         for (colour, curve) in self.curves.iter().enumerate() {
             svg.polyline(&format!("curve c{colour}"), curve.iter().map(|&point| at(point)));
         }
-    }
-}
-
-/// An axis from 0 to a round number.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Scale {
-    end: f64,
-    step: f64,
-}
-
-impl Scale {
-    /// The shortest axis with at most five round steps that holds `peak`.
-    fn up_to(peak: f64) -> Self {
-        if !(peak > 0.0 && peak.is_finite()) {
-            return Self { end: 1.0, step: 0.5 };
-        }
-        // A hair of room, so that an albedo of 1 + 1e-9 does not need another step.
-        let peak = peak * (1.0 - 1e-6);
-        let power = Real::powf(10.0_f64, (peak / 5.0).log10().floor());
-        let step = [1.0, 2.0, 2.5, 5.0, 10.0]
-            .map(|factor| factor * power)
-            .into_iter()
-            .find(|step| 5.0 * step >= peak)
-            .unwrap_or(10.0 * power);
-        Self { end: step * (peak / step).ceil(), step }
-    }
-
-    fn ticks(self) -> impl Iterator<Item = f64> {
-        let count = (self.end / self.step).round() as u32;
-        (0..=count).map(move |i| f64::from(i) * self.step)
-    }
-
-    /// With as many decimals as the step has.
-    fn label(self, tick: f64) -> String {
-        let decimals = (0..6).find(|&d| {
-            let scaled = self.step * Real::powi(10.0_f64, d);
-            (scaled - scaled.round()).abs() < 1e-6 * scaled
-        });
-        match decimals {
-            Some(decimals) => format!("{tick:.*}", decimals as usize),
-            None => format!("{tick:.1e}"),
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn scales_are_round_and_hold_their_peak() {
-        for (peak, end, step) in
-            [(1.0, 1.0, 0.2), (1.04, 1.25, 0.25), (0.31, 0.4, 0.1), (7300.0, 8000.0, 2000.0)]
-        {
-            let scale = Scale::up_to(peak);
-            assert!((scale.end / end - 1.0).abs() < 1e-12, "{peak}: {scale:?}");
-            assert!((scale.step / step - 1.0).abs() < 1e-12, "{peak}: {scale:?}");
-        }
-        assert_eq!(Scale::up_to(f64::NAN).end, 1.0);
-        assert_eq!(Scale { end: 1.25, step: 0.25 }.label(0.5), "0.50");
-        assert_eq!(Scale { end: 8000.0, step: 2000.0 }.label(2000.0), "2000");
     }
 }

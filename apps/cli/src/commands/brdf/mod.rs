@@ -10,7 +10,6 @@ mod list;
 mod lobe;
 mod plot;
 mod specification;
-mod svg;
 
 /// Lists, evaluates and draws reflection models.
 #[derive(Debug, clap::Args)]

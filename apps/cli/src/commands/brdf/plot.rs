@@ -5,9 +5,9 @@ use std::path::PathBuf;
 use super::figure::{Curves, figure};
 use super::lobe::{albedo, lobe, retro_reflection};
 use super::specification::Specification;
-use super::svg::{COLOURS, PATTERNS};
 use crate::failure::{Exit, Failure};
 use crate::output::Destination;
+use etendue_report::svg::{COLOURS, PATTERNS};
 
 /// Draws models as an SVG: polar lobes in the plane of incidence, directional albedo and retro-reflection.
 #[derive(Debug, clap::Args)]

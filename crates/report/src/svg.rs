@@ -4,23 +4,26 @@ use std::fmt::Write;
 
 /// A picture in user units, one to a CSS pixel, y downwards.
 #[derive(Debug)]
-pub(super) struct Svg {
+pub struct Svg {
     size: [f64; 2],
     body: String,
 }
 
 /// Where a text stands relative to its point.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum Anchor {
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Anchor {
+    /// To the right of it.
     Start,
+    /// Centred on it.
     Middle,
+    /// To the left of it.
     End,
 }
 
 /// How many colours there are for curves: classes `c0` to `c5`.
-pub(super) const COLOURS: usize = 6;
+pub const COLOURS: usize = 6;
 /// How many line patterns there are: classes `p0` to `p3`.
-pub(super) const PATTERNS: usize = 4;
+pub const PATTERNS: usize = 4;
 
 /// Okabe and Ito's colours, told apart with any colour vision; brightened on a dark page.
 const STYLE: &str = "\
@@ -29,24 +32,29 @@ const STYLE: &str = "\
 .grid{fill:none;stroke:#ccc;stroke-width:.7}.axis{fill:none;stroke:#555;stroke-width:1}\
 .c0{stroke:#0072b2}.c1{stroke:#d55e00}.c2{stroke:#009e73}.c3{stroke:#cc79a7}.c4{stroke:#b8860b}.c5{stroke:#56b4e9}\
 .p1{stroke-dasharray:7 3}.p2{stroke-dasharray:2 2.5}.p3{stroke-dasharray:8 3 2 3}\
-.delta{stroke-width:2.4}.viewer{stroke:#555;stroke-width:1}\
+.delta{stroke-width:2.4}.viewer{stroke:#555;stroke-width:1}.guide{stroke:#888;stroke-width:1;stroke-dasharray:4 4}\
+.marker{stroke-width:1.6}.hollow{fill:#fff}.c0.filled{fill:#0072b2}.c1.filled{fill:#d55e00}.c2.filled{fill:#009e73}\
+.c3.filled{fill:#cc79a7}.c4.filled{fill:#b8860b}.c5.filled{fill:#56b4e9}\
 @media(prefers-color-scheme:dark){.page{fill:#16181c}text{fill:#e4e4e4}.small{fill:#aaa}.grid{stroke:#3a3d44}\
 .axis,.viewer{stroke:#aaa}.c0{stroke:#4aa8e0}.c1{stroke:#ff8c42}.c2{stroke:#2fc79a}.c3{stroke:#e0a0c4}\
-.c4{stroke:#e0b040}.c5{stroke:#8fd0f5}}";
+.c4{stroke:#e0b040}.c5{stroke:#8fd0f5}.hollow{fill:#16181c}.c0.filled{fill:#4aa8e0}.c1.filled{fill:#ff8c42}\
+.c2.filled{fill:#2fc79a}.c3.filled{fill:#e0a0c4}.c4.filled{fill:#e0b040}.c5.filled{fill:#8fd0f5}}";
 
 impl Svg {
-    pub(super) fn new(size: [f64; 2]) -> Self {
+    /// An empty picture of `[width, height]`.
+    pub fn new(size: [f64; 2]) -> Self {
         Self { size, body: String::new() }
     }
 
-    pub(super) fn line(&mut self, class: &str, [x0, y0]: [f64; 2], [x1, y1]: [f64; 2]) {
+    /// A straight line.
+    pub fn line(&mut self, class: &str, [x0, y0]: [f64; 2], [x1, y1]: [f64; 2]) {
         self.element(format_args!(
             r#"<line class="{class}" x1="{x0:.2}" y1="{y0:.2}" x2="{x1:.2}" y2="{y1:.2}"/>"#
         ));
     }
 
     /// A polyline, without the points that lie on top of their predecessor at the precision of the file.
-    pub(super) fn polyline(&mut self, class: &str, points: impl IntoIterator<Item = [f64; 2]>) {
+    pub fn polyline(&mut self, class: &str, points: impl IntoIterator<Item = [f64; 2]>) {
         let mut list = String::new();
         let mut last = String::new();
         for [x, y] in points {
@@ -60,8 +68,8 @@ impl Svg {
     }
 
     /// The part of a circle that lies above its centre, or all of it.
-    pub(super) fn arc(&mut self, class: &str, [x, y]: [f64; 2], r: f64, is_whole: Extent) {
-        match is_whole {
+    pub fn arc(&mut self, class: &str, [x, y]: [f64; 2], r: f64, extent: Extent) {
+        match extent {
             Extent::Whole => self.element(format_args!(
                 r#"<circle class="{class}" cx="{x:.2}" cy="{y:.2}" r="{r:.2}"/>"#
             )),
@@ -73,7 +81,8 @@ impl Svg {
         }
     }
 
-    pub(super) fn text(&mut self, class: &str, [x, y]: [f64; 2], anchor: Anchor, content: &str) {
+    /// A line of text.
+    pub fn text(&mut self, class: &str, [x, y]: [f64; 2], anchor: Anchor, content: &str) {
         let anchor = anchor.name();
         let content = escaped(content);
         self.element(format_args!(
@@ -81,8 +90,16 @@ impl Svg {
         ));
     }
 
+    /// A round marker whose tooltip is `title`.
+    pub fn marker(&mut self, class: &str, [x, y]: [f64; 2], title: &str) {
+        let title = escaped(title);
+        self.element(format_args!(
+            r#"<circle class="{class}" cx="{x:.2}" cy="{y:.2}" r="3.6"><title>{title}</title></circle>"#
+        ));
+    }
+
     /// A text that reads upwards, centred on its point.
-    pub(super) fn upward_text(&mut self, class: &str, [x, y]: [f64; 2], content: &str) {
+    pub fn upward_text(&mut self, class: &str, [x, y]: [f64; 2], content: &str) {
         let content = escaped(content);
         self.element(format_args!(
             r#"<text class="{class}" transform="translate({x:.2} {y:.2}) rotate(-90)" text-anchor="middle">{content}</text>"#
@@ -90,7 +107,7 @@ impl Svg {
     }
 
     /// The file.
-    pub(super) fn finish(self, title: &str) -> String {
+    pub fn finish(self, title: &str) -> String {
         let ([w, h], title) = (self.size, escaped(title));
         format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {w} {h}\" width=\"{w}\" height=\"{h}\" \
@@ -108,8 +125,10 @@ impl Svg {
 
 /// How much of a circle is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Extent {
+pub enum Extent {
+    /// The half above its centre.
     UpperHalf,
+    /// All of it.
     Whole,
 }
 
@@ -123,7 +142,27 @@ impl Anchor {
     }
 }
 
-fn escaped(text: &str) -> String {
+/// Pictures one below the other, each as wide as the widest.
+pub fn stacked(title: &str, pictures: &[String]) -> String {
+    let size = |picture: &str| -> [f64; 2] {
+        let number = |name: &str| {
+            let rest = picture.split(&format!(" {name}=\"")).nth(1)?;
+            rest.split('"').next()?.parse().ok()
+        };
+        ["width", "height"].map(|name| number(name).unwrap_or(0.0))
+    };
+    let width = pictures.iter().map(|p| size(p)[0]).fold(1.0, f64::max);
+    let mut svg = Svg::new([width, pictures.iter().map(|p| size(p)[1]).sum::<f64>().max(1.0)]);
+    let mut top = 0.0;
+    for picture in pictures {
+        svg.body += &picture.replacen("<svg ", &format!("<svg y=\"{top}\" "), 1);
+        top += size(picture)[1];
+    }
+    svg.finish(title)
+}
+
+/// A text in which nothing is taken for markup.
+pub fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 

@@ -1,0 +1,3 @@
+//! `etendue accuracy`: what accuracy costs in time.
+
+mod report_files;

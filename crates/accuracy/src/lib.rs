@@ -1,0 +1,16 @@
+//! What accuracy costs in time.
+//!
+//! Wherever there is an exact and a cheaper way, an experiment here runs both: the error of each against a reference,
+//! the time of each in the same run, and which of them are on the Pareto front of the two. The outcome is a
+//! [`Report`](etendue_report::Report).
+//!
+//! Errors are the same in every run. Times are not, so they are taken interleaved and given as ratios
+//! ([`timing`]).
+#![forbid(unsafe_code)]
+#![allow(
+    clippy::std_instead_of_alloc,
+    clippy::std_instead_of_core,
+    reason = "for programs on hosts with an operating system"
+)]
+
+pub mod timing;
