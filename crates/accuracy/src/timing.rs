@@ -70,7 +70,9 @@ fn calibrate(pass: Pass<'_>, round: Duration) -> u32 {
     let mut repeats = 1_u32;
     loop {
         let start = Instant::now();
-        (0..repeats).for_each(|_| drop(core::hint::black_box(pass())));
+        for _ in 0..repeats {
+            core::hint::black_box(pass());
+        }
         if start.elapsed() >= round || repeats >= 1 << 24 {
             return repeats;
         }
@@ -110,7 +112,9 @@ mod tests {
     fn every_contestant_has_an_orderly_timing_and_the_first_is_its_own_measure() {
         let sines = |n: u32| {
             move || {
-                (0..n).for_each(|i| drop(black_box(Real::sin(black_box(f64::from(i))))));
+                for i in 0..n {
+                    black_box(Real::sin(black_box(f64::from(i))));
+                }
                 n as usize
             }
         };
