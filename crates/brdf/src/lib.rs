@@ -20,7 +20,7 @@
 //! | model | parameters | laws | sampled by | source |
 //! | --- | --- | --- | --- | --- |
 //! | [`AbsorbingSlab`] | eta, optical_depth | reciprocal; albedo ≤ 1 in closed form | delta, by the mean shares | Heavens 1955 |
-//! | [`AnyCoupled`] | r0, rm, distribution, alpha_x, alpha_y, masking | reciprocal; albedo ≤ 1.017 | that of the variant chosen at construction | coupled, or rough-coupled for alpha >= 1e-8 |
+//! | [`AnyCoupled`] | r0, rm, distribution, alpha_x, alpha_y, masking | reciprocal; albedo ≤ 1.5 | that of the variant chosen at construction | coupled, or rough-coupled for alpha >= 1e-8 |
 //! | [`AnyPlastic`] | eta, distribution, alpha, masking, reflectance, specular_reflectance, scattering, internal_reflectance | reciprocal; albedo ≤ 1 | that of the variant chosen at construction | plastic, or rough-plastic for alpha >= 1e-8 |
 //! | [`AshikhminShirley`] | nu, nv, rs, rd, sampling | reciprocal; albedo ≤ 1 | half vectors, p(h)/(4 h·wo), and cosine by albedos; or half vectors alone | Ashikhmin and Shirley 2000 |
 //! | [`AshikhminShirleyDiffuse`] | rs, rd | reciprocal; albedo ≤ 1 in closed form | cosine | Ashikhmin and Shirley 2000, eq. 5 |
@@ -50,7 +50,7 @@
 //! | [`Principled`] | base_color, roughness, anisotropic, metallic, spec_trans, eta, spec_tint, sheen, sheen_tint, flatness, clearcoat, clearcoat_gloss, diffuse_reflectance_sampling_rate, main_specular_sampling_rate, clearcoat_sampling_rate | reciprocal up to η²; albedo ≤ 2.86 | mixture of cosine, clear coat's facets and visible normals | Burley 2012, 2015; Mitsuba 3, principled |
 //! | [`PrincipledThin`] | base_color, roughness, anisotropic, spec_trans, eta, spec_tint, sheen, sheen_tint, flatness, diff_trans, specular_reflectance_sampling_rate, specular_transmittance_sampling_rate, diffuse_reflectance_sampling_rate, diffuse_transmittance_sampling_rate | reciprocal in reflection only; albedo ≤ 1.65 | mixture of visible normals and cosine on either side | Burley 2015; Mitsuba 3, principledthin |
 //! | [`RoughConductor`] | eta, k, distribution, alpha_x, alpha_y, masking, specular_reflectance | reciprocal; albedo ≤ 1 | visible normals; bounded ones or all by choice | Walter et al. 2007; Heitz 2014, 2018; Dupuy and Benyoub 2023; Eto and Tokuyoshi 2023 |
-//! | [`RoughCoupled`] | r0, rm, distribution, alpha_x, alpha_y, masking | reciprocal; albedo ≤ 1.017 | mixture of visible normals and cosine | Shirley et al. 1997, section 3; Walter et al. 2007 |
+//! | [`RoughCoupled`] | r0, rm, distribution, alpha_x, alpha_y, masking | reciprocal; albedo ≤ 1.5 | mixture of visible normals and cosine | Shirley et al. 1997, section 3; Walter et al. 2007 |
 //! | [`RoughDielectric`] | eta, distribution, alpha_x, alpha_y, masking, specular_reflectance, specular_transmittance | reciprocal up to η²; albedo ≤ 1 | visible normals, reflection with probability F | Walter et al. 2007; Heitz and d'Eon 2014 |
 //! | [`RoughPlastic`] | eta, distribution, alpha, masking, reflectance, specular_reflectance, scattering, internal_reflectance | reciprocal; albedo ≤ 1 | mixture of visible normals and cosine | Mitsuba, roughplastic |
 //! | [`SmoothConductor`] | eta, k, specular_reflectance | reciprocal; albedo ≤ 1 in closed form | delta | Born and Wolf, section 14.2 |

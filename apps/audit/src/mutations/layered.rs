@@ -146,8 +146,8 @@ pub(super) const MUTATIONS: &[Mutation] = &[
     Mutation {
         fault: "rough coupled facets by the viewer's angle: swapped angle",
         file: "crates/brdf/src/layered/rough_coupled.rs",
-        find: "self.interface.reflectance(cos).scale(lobe)",
-        replace: "self.interface.reflectance(wo.z() + C::Real::ZERO * cos).scale(lobe)",
+        find: "self.interface.facet_reflectance(cos, versine).scale(lobe)",
+        replace: "self.interface.facet_reflectance(wo.z(), C::Real::ONE - wo.z() + C::Real::ZERO * versine).scale(lobe)",
         filters: &["rough-coupled"],
     },
     Mutation {
