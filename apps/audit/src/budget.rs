@@ -30,10 +30,10 @@ impl Budget {
         draws: 200,
         swept: 1 << 15,
     };
-    /// The default of the command: some two minutes on two cores.
+    /// The default of the command: less than two minutes on two cores.
     pub const SMOKE: Self = Self {
         name: "smoke",
-        viewers: 4,
+        viewers: 3,
         samples: 1 << 16,
         pilot: 1 << 12,
         pairs: 10_000,
