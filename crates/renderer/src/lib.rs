@@ -55,17 +55,20 @@
 //! No bidirectional methods, no denoising, no tone mapping, no files: pictures leave as linear
 //! radiance.
 
+mod features;
 mod film;
 pub mod image_metrics;
 #[cfg(test)]
 mod laws;
 mod light_sampler;
 mod path;
+pub mod progressive;
 mod render;
 mod settings;
 mod statistics;
 mod tile;
 
+pub use features::Features;
 pub use film::{FilmSample, FilterSampler, Image, PixelFilter, PixelSum};
 pub use light_sampler::{LightChoice, LightSampler, Receiver, Sides};
 pub use render::{Progress, Renderer, Rendering, ThreadError};
