@@ -49,6 +49,8 @@
 //! | [`FilterSampler`] | where in a pixel's neighbourhood a sample lies |
 //! | [`LightSampler`] | which light is sampled for a point: a light tree |
 //! | [`Strategy`] | how light is found: both ways, or one of them |
+//! | [`progressive`] | how many samples a pixel gets, when a picture is accurate enough |
+//! | [`Features`] | what pixels show, for compositing and denoising |
 //! | [`image_metrics`] | how far two pictures are apart |
 //!
 //! # Non-goals
