@@ -35,6 +35,11 @@ impl Interrupt {
         &self.requested
     }
 
+    /// Whether a signal has come.
+    pub(crate) fn requested(&self) -> bool {
+        self.requested.load(Ordering::Relaxed)
+    }
+
     /// The exit code of the signal that came, if one did.
     pub(crate) fn exit(&self) -> Option<Exit> {
         match self.signal.load(Ordering::Relaxed) as i32 {

@@ -15,6 +15,7 @@ use clap::{Parser, Subcommand};
 
 mod commands;
 mod failure;
+mod figures;
 mod interrupt;
 mod memory;
 mod output;

@@ -4,8 +4,19 @@ use std::io::IsTerminal;
 use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
-use etendue_renderer::Progress;
+use etendue_renderer::progressive::ImageError;
 use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressStyle};
+
+use crate::figures::error_in_percent;
+
+/// How far a render is.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Standing {
+    /// The part of the work that is done, from 0 to 1.
+    pub(crate) fraction: f64,
+    /// The present error of the picture, where it is known.
+    pub(crate) error: Option<ImageError>,
+}
 
 /// Whether progress and summary are suppressed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -34,6 +45,9 @@ pub(crate) struct Lines {
 
 const INTERVAL: Duration = Duration::from_secs(5);
 
+/// Steps of the bar.
+const STEPS: u64 = 10_000;
+
 impl ProgressDisplay {
     /// A display on standard error that suits what standard error is.
     pub(crate) fn new(quiet: Quiet) -> Self {
@@ -44,8 +58,8 @@ impl ProgressDisplay {
             let now = Instant::now();
             return Self::Lines(Lines { start: now, last: Mutex::new(now) });
         }
-        let bar = ProgressBar::with_draw_target(Some(0), ProgressDrawTarget::stderr());
-        let template = "rendering {wide_bar} {percent:>3} %  {elapsed}, {eta} left";
+        let bar = ProgressBar::with_draw_target(Some(STEPS), ProgressDrawTarget::stderr());
+        let template = "rendering {wide_bar} {percent:>3} %  {msg}{elapsed}, {eta} left";
         // The template is a constant; a bar in the default style is no reason not to render.
         bar.set_style(
             ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar()),
@@ -54,12 +68,14 @@ impl ProgressDisplay {
     }
 
     /// Shows how far the render is.
-    pub(crate) fn update(&self, now: Progress) {
+    pub(crate) fn update(&self, now: Standing) {
         match self {
             Self::Nothing => {}
             Self::Bar(bar) => {
-                bar.set_length(now.total as u64);
-                bar.set_position(now.finished as u64);
+                if let Some(error) = &now.error {
+                    bar.set_message(format!("{}, ", error_in_percent(error)));
+                }
+                bar.set_position((now.fraction * STEPS as f64) as u64);
             }
             Self::Lines(lines) => lines.update(now),
         }
@@ -74,15 +90,17 @@ impl ProgressDisplay {
 }
 
 impl Lines {
-    fn update(&self, now: Progress) {
+    fn update(&self, now: Standing) {
         // Whoever finds the lock taken has nothing newer to say.
         let Ok(mut last) = self.last.try_lock() else { return };
         if last.elapsed() < INTERVAL {
             return;
         }
         *last = Instant::now();
-        let left = (now.total - now.finished) as f64 / now.finished as f64;
+        let error = now.error.map_or(String::new(), |e| format!("{}, ", error_in_percent(&e)));
+        // Within an hour a fraction of a millionth is a year left, which is long enough.
+        let left = (1.0 - now.fraction) / now.fraction.max(1e-6);
         let left = HumanDuration(self.start.elapsed().mul_f64(left));
-        eprintln!("etendue: {} %, {left} left", 100 * now.finished / now.total);
+        eprintln!("etendue: {:.0} %, {error}{left} left", 100.0 * now.fraction);
     }
 }

@@ -49,23 +49,28 @@
 //! | [`FilterSampler`] | where in a pixel's neighbourhood a sample lies |
 //! | [`LightSampler`] | which light is sampled for a point: a light tree |
 //! | [`Strategy`] | how light is found: both ways, or one of them |
+//! | [`progressive`] | how many samples a pixel gets, when a picture is accurate enough |
+//! | [`Features`] | what pixels show, for compositing and denoising |
 //! | [`image_metrics`] | how far two pictures are apart |
 //!
 //! # Non-goals
 //! No bidirectional methods, no denoising, no tone mapping, no files: pictures leave as linear
 //! radiance.
 
+mod features;
 mod film;
 pub mod image_metrics;
 #[cfg(test)]
 mod laws;
 mod light_sampler;
 mod path;
+pub mod progressive;
 mod render;
 mod settings;
 mod statistics;
 mod tile;
 
+pub use features::Features;
 pub use film::{FilmSample, FilterSampler, Image, PixelFilter, PixelSum};
 pub use light_sampler::{LightChoice, LightSampler, Receiver, Sides};
 pub use render::{Progress, Renderer, Rendering, ThreadError};

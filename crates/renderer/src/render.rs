@@ -6,7 +6,7 @@ use std::sync::{Mutex, PoisonError};
 
 use etendue_math::Spectrum;
 use etendue_sampling::{Decision, Dimension, Independent, Sampler, Sobol};
-use etendue_scene::geometry::{Rays, Task};
+use etendue_scene::geometry::{Ray, Rays, Task};
 use etendue_scene::material::PreparedMaterials;
 use etendue_scene::scene::SamplerKind;
 use etendue_scene::{Color, Scene};
@@ -23,11 +23,11 @@ use crate::tile::Tile;
 /// Every number of a sample is addressed by (seed, pixel, sample, decision), and every pixel sums
 /// its own samples in order: the picture has the same bits for any number of threads.
 pub struct Renderer<'a> {
-    scene: &'a Scene,
-    settings: RenderSettings,
+    pub(crate) scene: &'a Scene,
+    pub(crate) settings: RenderSettings,
     materials: PreparedMaterials<'a>,
     lights: LightSampler,
-    filter: FilterSampler,
+    pub(crate) filter: FilterSampler,
     pool: rayon::ThreadPool,
 }
 
@@ -98,16 +98,16 @@ impl<'a> Renderer<'a> {
     }
 
     /// The radiance of one sample, weighted by the filter: what the picture's pixel is the mean of.
-    /// `pixel` is a column and a row of the full film.
-    pub fn sample(&self, pixel: [u32; 2], index: u32) -> Color {
+    /// `pixel` is a column and a row of the full film, `index` that of a [`SampleAddress`].
+    pub fn sample(&self, pixel: [u32; 2], index: u64) -> Color {
         match self.settings.sampler {
             SamplerKind::Independent => self.sample_with::<Independent>(pixel, index),
             SamplerKind::Sobol => self.sample_with::<Sobol>(pixel, index),
         }
     }
 
-    fn sample_with<S: Sampler>(&self, pixel: [u32; 2], index: u32) -> Color {
-        let points = S::at(self.settings.seed, pixel, u64::from(index));
+    fn sample_with<S: Sampler>(&self, pixel: [u32; 2], index: u64) -> Color {
+        let points = S::at(self.settings.seed, pixel, index);
         let filter = self.filter.pixel(pixel);
         self.path_sample(
             &self.tracer(&self.scene.geometry),
@@ -130,7 +130,6 @@ impl<'a> Renderer<'a> {
         }
     }
 
-    /// Every thread takes the next tile until none is left.
     fn render_with<S: Sampler>(
         &self,
         tiles: &[Tile],
@@ -138,35 +137,47 @@ impl<'a> Renderer<'a> {
         cancel: &AtomicBool,
     ) -> Rendering {
         let crop = &self.scene.film.crop;
-        let next = AtomicUsize::new(0);
         let rendering = Mutex::new(Rendering {
             image: Image::black(crop.size),
             statistics: Statistics::default(),
             progress: Progress { finished: 0, total: tiles.len() },
         });
-        self.pool.broadcast(|_| {
-            while !cancel.load(Ordering::Relaxed) {
-                let Some(&tile) = tiles.get(next.fetch_add(1, Ordering::Relaxed)) else { break };
-                let task = RenderTile::<S> { renderer: self, tile, points: PhantomData };
-                let (pixels, statistics) = self.scene.geometry.run(task);
-                // Merging is the same in any order. A poisoned lock means that `report` panicked
-                // on another thread, whose tile is complete.
-                let mut shared = rendering.lock().unwrap_or_else(PoisonError::into_inner);
-                for (pixel, color) in tile.pixels().zip(pixels) {
-                    let [x, y] = [0, 1].map(|axis| pixel[axis] - crop.offset[axis]);
-                    shared.image.set([x, y], color);
-                }
-                shared.statistics.merge(&statistics);
-                shared.progress.finished += 1;
-                let progress = shared.progress;
-                drop(shared);
-                report(progress);
+        self.share_out(tiles, &|| cancel.load(Ordering::Relaxed), |&tile| {
+            let task = RenderTile::<S> { renderer: self, tile, points: PhantomData };
+            let (pixels, statistics) = self.scene.geometry.run(task);
+            // Merging is the same in any order. A poisoned lock means that `report` panicked
+            // on another thread, whose tile is complete.
+            let mut shared = rendering.lock().unwrap_or_else(PoisonError::into_inner);
+            for (pixel, color) in tile.pixels().zip(pixels) {
+                let [x, y] = [0, 1].map(|axis| pixel[axis] - crop.offset[axis]);
+                shared.image.set([x, y], color);
             }
+            shared.statistics.merge(&statistics);
+            shared.progress.finished += 1;
+            let progress = shared.progress;
+            drop(shared);
+            report(progress);
         });
         rendering.into_inner().unwrap_or_else(PoisonError::into_inner)
     }
 
-    fn tracer<R: Rays>(&self, rays: R) -> PathTracer<'_, 'a, R> {
+    /// Every thread takes the next piece of work until none is left or `cancelled` says so.
+    pub(crate) fn share_out<T: Sync>(
+        &self,
+        pieces: &[T],
+        cancelled: &(dyn Fn() -> bool + Sync),
+        work: impl Fn(&T) + Sync,
+    ) {
+        let next = AtomicUsize::new(0);
+        self.pool.broadcast(|_| {
+            while !cancelled() {
+                let Some(piece) = pieces.get(next.fetch_add(1, Ordering::Relaxed)) else { break };
+                work(piece);
+            }
+        });
+    }
+
+    pub(crate) fn tracer<R: Rays>(&self, rays: R) -> PathTracer<'_, 'a, R> {
         let RenderSettings { path, strategy, .. } = self.settings;
         PathTracer::new(rays, self.scene, &self.materials, &self.lights, path, strategy)
     }
@@ -185,7 +196,11 @@ impl<'a> Renderer<'a> {
             let radiance = self.path_sample(tracer, &filter, &points, &mut statistics.rays);
             if !sum.add(radiance) {
                 let [column, row] = pixel;
-                statistics.non_finite.record(SampleAddress { row, column, sample });
+                statistics.non_finite.record(SampleAddress {
+                    row,
+                    column,
+                    sample: u64::from(sample),
+                });
             }
         }
         statistics.samples += u64::from(self.settings.samples_per_pixel);
@@ -193,13 +208,24 @@ impl<'a> Renderer<'a> {
     }
 
     #[inline(always)]
-    fn path_sample<S: Sampler, R: Rays>(
+    pub(crate) fn path_sample<S: Sampler, R: Rays>(
         &self,
         tracer: &PathTracer<'_, '_, R>,
         filter: &PixelFilter<'_>,
         points: &S,
         rays: &mut RayCounts,
     ) -> Color {
+        let (ray, weight) = self.camera_ray(filter, points);
+        tracer.radiance(ray, points, rays).scale(weight)
+    }
+
+    /// The camera's ray of one sample, and the weight of the radiance that it finds.
+    #[inline(always)]
+    pub(crate) fn camera_ray<S: Sampler>(
+        &self,
+        filter: &PixelFilter<'_>,
+        points: &S,
+    ) -> (Ray, f32) {
         let film = filter.sample(points.sample_2d(Dimension::camera(Decision::Film)));
         let camera = &self.scene.camera;
         let lens = if camera.has_lens() {
@@ -207,8 +233,7 @@ impl<'a> Renderer<'a> {
         } else {
             [0.0; 2]
         };
-        let ray = camera.ray(film.position, lens);
-        tracer.radiance(ray, points, rays).scale(film.weight)
+        (camera.ray(film.position, lens), film.weight)
     }
 }
 

@@ -46,7 +46,7 @@ pub struct SampleAddress {
     /// Column of the pixel on the full film.
     pub column: u32,
     /// Index of the sample within the pixel.
-    pub sample: u32,
+    pub sample: u64,
 }
 
 impl NonFiniteSamples {

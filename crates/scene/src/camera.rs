@@ -208,6 +208,14 @@ impl Camera {
         }
     }
 
+    /// How far a point lies from the camera along its optical axis, in units of the scene; negative
+    /// behind it.
+    pub fn depth(&self, position: Vec3) -> f32 {
+        let axis = self.to_world.vector(Vec3::Z);
+        let from_camera = position - self.to_world.point(Vec3::ZERO);
+        from_camera.dot(axis) / Vector3::length(axis)
+    }
+
     /// Whether rays depend on the point of the lens.
     #[inline]
     pub fn has_lens(&self) -> bool {

@@ -44,7 +44,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     if let Some(output) = output {
         let picture = image_metrics::difference_picture(&image, &reference).map_err(mismatch)?;
         let encoding = Encoding { precision: Precision::Float, exposure: 0.0 };
-        output.write(&picture, encoding, &Metadata::default())?;
+        output.write(&picture, &[], encoding, &Metadata::default())?;
     }
     Ok(Exit::Done)
 }

@@ -1,19 +1,26 @@
 //! `etendue render`: from a scene to a picture.
 
-use std::path::PathBuf;
-use std::time::Instant;
+mod draw;
+mod report;
+mod task;
+mod values;
 
-use etendue_renderer::{RenderSettings, Renderer, Rendering};
+use std::path::PathBuf;
+use std::time::{Duration, Instant};
+
+use etendue_renderer::progressive;
 use etendue_scene::film::Crop;
-use etendue_scene::{LoadOptions, LoadedScene, SamplerKind, Scene};
-use serde_json::json;
+use etendue_scene::{LoadOptions, SamplerKind};
 
 use super::scene_arguments::{SceneArguments, load};
 use crate::failure::{Exit, Failure};
 use crate::interrupt::Interrupt;
-use crate::memory::peak_resident_bytes;
-use crate::output::{Encoding, Metadata, Output, Precision};
-use crate::progress::{ProgressDisplay, Quiet};
+use crate::output::{Aov, Encoding, Output, Precision};
+use crate::progress::Quiet;
+use draw::draw;
+use report::Report;
+use task::Task;
+use values::{crop, duration, exposure, max_depth, relative_error, size};
 
 /// Renders a scene to a picture.
 #[derive(Debug, clap::Args)]
@@ -23,9 +30,21 @@ pub(crate) struct Arguments {
     /// The picture to write; its extension chooses the format: exr, hdr, pfm (linear), png (sRGB).
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
-    /// Samples per pixel.
+    /// Samples per pixel; with --error, --time or --allocation their mean over the picture, at most.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     spp: Option<u32>,
+    /// Render until the relative error of the picture is below this with 95 % confidence: 1% or 0.01.
+    #[arg(long, value_name = "ERROR", value_parser = relative_error)]
+    error: Option<f64>,
+    /// Render for this long: 500ms, 30s, 2min, 1h. Every pixel gets two samples in any case.
+    #[arg(long, value_name = "TIME", value_parser = duration)]
+    time: Option<Duration>,
+    /// Where samples go; adaptive with --error or --time, uniform otherwise.
+    #[arg(long, value_name = "NAME")]
+    allocation: Option<Allocation>,
+    /// Further layers of an EXR picture, separated by commas.
+    #[arg(long, value_name = "LAYERS", value_delimiter = ',')]
+    aov: Vec<Aov>,
     /// Size of the whole film in pixels.
     #[arg(long, value_name = "WIDTHxHEIGHT", value_parser = size)]
     size: Option<[u32; 2]>,
@@ -70,6 +89,24 @@ enum Sampler {
     Sobol,
 }
 
+/// Where samples go, by name.
+#[derive(Clone, Copy, Debug, clap::ValueEnum)]
+enum Allocation {
+    /// Where the error is.
+    Adaptive,
+    /// To all pixels alike.
+    Uniform,
+}
+
+impl From<Allocation> for progressive::Allocation {
+    fn from(allocation: Allocation) -> Self {
+        match allocation {
+            Allocation::Adaptive => Self::Adaptive,
+            Allocation::Uniform => Self::Uniform,
+        }
+    }
+}
+
 impl Arguments {
     fn load_options(&self) -> LoadOptions {
         LoadOptions {
@@ -93,6 +130,9 @@ impl Arguments {
 
 pub(crate) fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     let output = Output::check(&arguments.output)?;
+    if !arguments.aov.is_empty() {
+        output.check_layers()?;
+    }
     let interrupt = Interrupt::install()
         .map_err(|e| Failure::new(Exit::Internal, format!("cannot handle signals: {e}")))?;
     let start = Instant::now();
@@ -102,17 +142,16 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Exit, Failure> {
         eprintln!("etendue: warning: {diagnosis}");
     }
 
+    let task = Task::new(arguments, &loaded.scene)?;
     let start = Instant::now();
-    let rendering = draw(arguments, &loaded.scene, &interrupt)?;
-    let report = Report {
-        render_seconds: start.elapsed().as_secs_f64(),
-        build_seconds,
-        rendering: &rendering,
-    };
+    let drawing = draw(&task, &loaded.scene, &interrupt)?;
+    let render_seconds = start.elapsed().as_secs_f64();
+    let report = Report { render_seconds, build_seconds, drawing: &drawing };
     report.warn_of_bad_samples(loaded.scene.sampling.seed);
 
     let encoding = Encoding { precision: arguments.precision, exposure: arguments.exposure };
-    output.write(&rendering.image, encoding, &report.metadata(arguments, &loaded))?;
+    let metadata = report.metadata(arguments, &loaded);
+    output.write(&drawing.image, &drawing.layers, encoding, &metadata)?;
     if !arguments.quiet {
         eprintln!("etendue: {}", report.summary(&output));
     }
@@ -124,129 +163,4 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Exit, Failure> {
         None if arguments.strict && report.non_finite() > 0 => Exit::Unhealthy,
         None => Exit::Done,
     })
-}
-
-fn draw(arguments: &Arguments, scene: &Scene, interrupt: &Interrupt) -> Result<Rendering, Failure> {
-    let settings = RenderSettings {
-        threads: arguments.threads.map_or(0, usize::from),
-        ..RenderSettings::of_scene(scene)
-    };
-    let renderer =
-        Renderer::new(scene, settings).map_err(|e| Failure::new(Exit::Resource, e.to_string()))?;
-    let progress = ProgressDisplay::new(arguments.quiet());
-    let rendering = renderer.render(&|now| progress.update(now), interrupt.flag());
-    progress.finish();
-    Ok(rendering)
-}
-
-/// What a finished render says about itself.
-struct Report<'a> {
-    render_seconds: f64,
-    build_seconds: f64,
-    rendering: &'a Rendering,
-}
-
-impl Report<'_> {
-    fn non_finite(&self) -> u64 {
-        self.rendering.statistics.non_finite.count()
-    }
-
-    fn complete(&self) -> bool {
-        let progress = self.rendering.progress;
-        progress.finished == progress.total
-    }
-
-    fn mrays_per_second(&self) -> f64 {
-        self.rendering.statistics.rays.total() as f64 / self.render_seconds.max(1e-9) / 1e6
-    }
-
-    fn metadata(&self, arguments: &Arguments, loaded: &LoadedScene) -> Metadata {
-        Metadata {
-            scene: arguments.scene.scene.display().to_string(),
-            samples_per_pixel: loaded.scene.sampling.samples_per_pixel,
-            seed: loaded.scene.sampling.seed,
-            seconds: self.render_seconds,
-            non_finite: self.non_finite(),
-        }
-    }
-
-    fn warn_of_bad_samples(&self, seed: u64) {
-        if self.non_finite() == 0 {
-            return;
-        }
-        eprintln!(
-            "etendue: warning: {} samples were NaN or infinite and were left out; the first of them \
-             with seed {seed}:",
-            self.non_finite()
-        );
-        for address in self.rendering.statistics.non_finite.first() {
-            eprintln!(
-                "etendue:   column {}, row {}, sample {}",
-                address.column, address.row, address.sample
-            );
-        }
-    }
-
-    fn summary(&self, output: &Output) -> String {
-        let statistics = &self.rendering.statistics;
-        let memory = peak_resident_bytes()
-            .map_or(String::new(), |bytes| format!(", {} MiB at most", bytes >> 20));
-        let cut = if self.complete() { "" } else { " (interrupted: parts are black)" };
-        format!(
-            "{} in {:.2} s ({:.2} s to load and build), {} samples, {} rays, {:.1} Mrays/s{memory}{cut}",
-            output.path().display(),
-            self.render_seconds,
-            self.build_seconds,
-            statistics.samples,
-            statistics.rays.total(),
-            self.mrays_per_second(),
-        )
-    }
-
-    fn json(&self) -> serde_json::Value {
-        let statistics = &self.rendering.statistics;
-        json!({
-            "render_seconds": self.render_seconds,
-            "build_seconds": self.build_seconds,
-            "samples": statistics.samples,
-            "rays": statistics.rays.total(),
-            "mrays_per_second": self.mrays_per_second(),
-            "peak_rss": peak_resident_bytes(),
-            "non_finite": self.non_finite(),
-            "complete": self.complete(),
-        })
-    }
-}
-
-fn numbers<const N: usize>(text: &str, separator: char) -> Option<[u32; N]> {
-    let parsed: Vec<u32> =
-        text.split(separator).map(|t| t.trim().parse().ok()).collect::<Option<_>>()?;
-    parsed.try_into().ok()
-}
-
-fn size(text: &str) -> Result<[u32; 2], String> {
-    match numbers(text, 'x') {
-        Some(size) if !size.contains(&0) => Ok(size),
-        _ => Err("expected WIDTHxHEIGHT, as in 640x480, both at least 1".to_owned()),
-    }
-}
-
-fn crop(text: &str) -> Result<Crop, String> {
-    let [x, y, w, h] =
-        numbers(text, ',').ok_or("expected four numbers: left, top, width, height")?;
-    Ok(Crop { offset: [x, y], size: [w, h] })
-}
-
-fn max_depth(text: &str) -> Result<i64, String> {
-    match text.parse() {
-        Ok(depth) if (-1..=i64::from(u32::MAX)).contains(&depth) => Ok(depth),
-        _ => Err("expected a number of edges, or -1 for no limit".to_owned()),
-    }
-}
-
-fn exposure(text: &str) -> Result<f32, String> {
-    match text.parse::<f32>() {
-        Ok(stops) if stops.abs() <= 64.0 => Ok(stops),
-        _ => Err("expected a number of stops between -64 and 64".to_owned()),
-    }
 }

@@ -4,11 +4,13 @@ use std::io::Cursor;
 
 use ::exr::meta::attribute::AttributeValue;
 use ::exr::prelude::{
-    Encoding, Image, Layer, LayerAttributes, SpecificChannels, Text, Vec2, WritableImage,
+    AnyChannel, AnyChannels, Encoding, FlatSamples, Image, Layer, LayerAttributes, Text,
+    WritableImage,
 };
 use etendue_renderer::Image as Picture;
 use half::f16;
 
+use super::aov::{Channel, Plane, colors};
 use super::{EncodeResult, Metadata};
 
 /// Sample type of an EXR file.
@@ -23,41 +25,46 @@ pub(crate) enum Precision {
 pub(super) fn encode(
     bytes: &mut Vec<u8>,
     picture: &Picture,
+    layers: &[Channel],
     precision: Precision,
     metadata: &Metadata,
 ) -> EncodeResult {
-    let [width, height] = picture.size().map(|n| n as usize);
-    let at =
-        |position: Vec2<usize>| picture.pixels()[position.y() * width + position.x()].to_array();
+    let size = picture.size().map(|n| n as usize);
     let software_name = Some(Text::from("etendue"));
     let mut attributes = LayerAttributes { software_name, ..LayerAttributes::default() };
     for (name, value) in metadata.entries() {
         let value = AttributeValue::Text(Text::new_or_none(&value).unwrap_or_default());
         attributes.other.insert(Text::from(name), value);
     }
-    let encoding = Encoding::SMALL_LOSSLESS;
-    let mut cursor = Cursor::new(bytes);
-    match precision {
-        Precision::Float => {
-            let channels = SpecificChannels::rgb(|p| {
-                let [r, g, b] = at(p);
-                (r, g, b)
-            });
-            Image::from_layer(Layer::new((width, height), attributes, encoding, channels))
-                .write()
-                .to_buffered(&mut cursor)?;
-        }
-        Precision::Half => {
-            let channels = SpecificChannels::rgb(|p| {
-                let [r, g, b] = at(p).map(half_or_largest);
-                (r, g, b)
-            });
-            Image::from_layer(Layer::new((width, height), attributes, encoding, channels))
-                .write()
-                .to_buffered(&mut cursor)?;
-        }
-    }
+    let rgb = colors(["R", "G", "B"], |axis| {
+        picture.pixels().iter().map(|pixel| pixel.to_array()[axis]).collect()
+    });
+    let channels = rgb.iter().chain(layers).map(|channel| {
+        AnyChannel::new(Text::from(channel.name), samples(&channel.plane, precision))
+    });
+    let channels = AnyChannels::sort(channels.collect());
+    Image::from_layer(Layer::new(
+        (size[0], size[1]),
+        attributes,
+        Encoding::SMALL_LOSSLESS,
+        channels,
+    ))
+    .write()
+    .to_buffered(&mut Cursor::new(bytes))?;
     Ok(())
+}
+
+/// Colours in the precision asked for; positions, depths and counts would not survive in half.
+fn samples(plane: &Plane, precision: Precision) -> FlatSamples {
+    match (plane, precision) {
+        (Plane::Color(values), Precision::Half) => {
+            FlatSamples::F16(values.iter().copied().map(half_or_largest).collect())
+        }
+        (Plane::Color(values), Precision::Float) | (Plane::Measure(values), _) => {
+            FlatSamples::F32(values.clone())
+        }
+        (Plane::Count(values), _) => FlatSamples::U32(values.clone()),
+    }
 }
 
 fn half_or_largest(x: f32) -> f16 {

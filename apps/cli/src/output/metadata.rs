@@ -1,30 +1,45 @@
 //! What a picture says about its own making.
 
+use etendue_renderer::progressive::ImageError;
+
 /// Facts stored in the picture's header where the format has room for them.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Metadata {
     /// The scene file as given on the command line.
     pub(crate) scene: String,
-    /// Samples per pixel.
-    pub(crate) samples_per_pixel: u32,
+    /// Samples per pixel, in the mean over the picture.
+    pub(crate) samples_per_pixel: f64,
+    /// Samples in all.
+    pub(crate) samples: u64,
     /// Seed.
     pub(crate) seed: u64,
     /// Seconds of rendering.
     pub(crate) seconds: f64,
     /// Samples left out because they were NaN or infinite.
     pub(crate) non_finite: u64,
+    /// The relative error of the picture, where it is known.
+    pub(crate) error: Option<ImageError>,
 }
 
 impl Metadata {
     /// Name and value of every entry.
-    pub(crate) fn entries(&self) -> [(&'static str, String); 6] {
-        [
+    pub(crate) fn entries(&self) -> Vec<(&'static str, String)> {
+        let mut entries = vec![
             ("etendue.version", env!("CARGO_PKG_VERSION").to_owned()),
             ("etendue.scene", self.scene.clone()),
             ("etendue.spp", self.samples_per_pixel.to_string()),
+            ("etendue.samples", self.samples.to_string()),
             ("etendue.seed", self.seed.to_string()),
             ("etendue.seconds", format!("{:.3}", self.seconds)),
             ("etendue.non_finite", self.non_finite.to_string()),
-        ]
+        ];
+        if let Some(error) = self.error {
+            entries.extend([
+                ("etendue.error", error.estimate.to_string()),
+                ("etendue.error_lower", error.lower.to_string()),
+                ("etendue.error_upper", error.upper.to_string()),
+            ]);
+        }
+        entries
     }
 }

@@ -6,6 +6,7 @@ use etendue_renderer::Image;
 
 use crate::failure::Failure;
 
+mod aov;
 mod destination;
 mod exr;
 mod hdr;
@@ -14,6 +15,7 @@ mod pfm;
 mod png;
 
 pub(crate) use self::exr::Precision;
+pub(crate) use aov::{Aov, Channel, Sources};
 pub(crate) use destination::Destination;
 pub(crate) use metadata::Metadata;
 
@@ -64,20 +66,32 @@ impl Output {
         Ok(Self { destination: Destination::check(path)?, format })
     }
 
+    /// Checks that the format has room for layers.
+    pub(crate) fn check_layers(&self) -> Result<(), Failure> {
+        if self.format == Format::Exr {
+            return Ok(());
+        }
+        Err(Failure::usage(format!(
+            "{}: only EXR pictures have layers; name the output *.exr or leave out --aov",
+            self.path().display()
+        )))
+    }
+
     pub(crate) fn path(&self) -> &Path {
         self.destination.path()
     }
 
-    /// Encodes and writes the picture; the destination is either untouched or complete.
+    /// Encodes and writes the picture, with layers where the format has them; the destination is either untouched or complete.
     pub(crate) fn write(
         &self,
         image: &Image,
+        layers: &[Channel],
         encoding: Encoding,
         metadata: &Metadata,
     ) -> Result<(), Failure> {
         let mut bytes = Vec::new();
         match self.format {
-            Format::Exr => exr::encode(&mut bytes, image, encoding.precision, metadata),
+            Format::Exr => exr::encode(&mut bytes, image, layers, encoding.precision, metadata),
             Format::Hdr => hdr::encode(&mut bytes, image),
             Format::Png => png::encode(&mut bytes, image, encoding.exposure),
             Format::Pfm => pfm::encode(&mut bytes, image),
@@ -101,7 +115,7 @@ mod tests {
         let encoding = Encoding { precision: Precision::Float, exposure: 0.0 };
         let pixels = vec![[0.25, 0.5, 1.0].into(), [0.0, 2.0, 1e-3].into()];
         let image = Image::from_pixels([2, 1], pixels).expect("two pixels");
-        output.write(&image, encoding, &Metadata::default()).expect("written");
+        output.write(&image, &[], encoding, &Metadata::default()).expect("written");
         let left: Vec<_> = std::fs::read_dir(directory.path()).expect("listing").collect();
         assert_eq!(left.len(), 1, "no temporary file stays behind");
         std::fs::read(path).expect("readable")

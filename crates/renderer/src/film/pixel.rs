@@ -29,6 +29,11 @@ impl PixelSum {
         true
     }
 
+    /// Number of samples that count.
+    pub fn count(&self) -> u64 {
+        self.count
+    }
+
     /// Mean of the samples that count; black if there are none.
     pub fn mean(&self) -> Color {
         let scale = 1.0 / self.count.max(1) as f64;

@@ -1,8 +1,11 @@
 //! Laws that pictures obey, checked on small scenes.
 
+mod accuracy;
+mod bias;
 mod depth;
 mod determinism;
 mod direct_light;
+mod features;
 mod furnace;
 mod health;
 mod scenes;

@@ -119,7 +119,7 @@ pub(super) struct Estimate {
 pub(super) fn estimate(scene: &Scene, settings: RenderSettings, samples: u32) -> Estimate {
     let renderer = Renderer::new(scene, settings).expect("one thread");
     let (mut sum, mut squares) = (0.0_f64, 0.0_f64);
-    for i in 0..samples {
+    for i in 0..u64::from(samples) {
         let x = f64::from(renderer.sample([0, 0], i).r);
         sum += x;
         squares += x * x;

@@ -1,6 +1,7 @@
 //! Unidirectional path tracing.
 
 mod direct_light;
+mod first_hit;
 mod found_light;
 mod scatter;
 
@@ -17,6 +18,8 @@ use etendue_scene::{Color, Scene};
 use crate::light_sampler::{LightSampler, Receiver, Sides};
 use crate::settings::Strategy;
 use crate::statistics::RayCounts;
+
+pub(crate) use first_hit::FirstHit;
 
 /// Solves the rendering equation for one ray at a time.
 ///
@@ -103,6 +106,19 @@ struct Walk {
     view: View,
 }
 
+impl Walk {
+    #[inline(always)]
+    fn from_camera(ray: Ray) -> Self {
+        Self {
+            ray,
+            throughput: Color::white(),
+            eta: 1.0,
+            arrival: Arrival::Certain,
+            view: View::Unobstructed,
+        }
+    }
+}
+
 /// Whether a path goes on.
 enum Fate {
     Continues,
@@ -147,13 +163,7 @@ impl<'a, 's, R: Rays> PathTracer<'a, 's, R> {
     ) -> Color {
         let longest = self.settings.max_depth.unwrap_or(u32::MAX).min(u32::from(u16::MAX)) as u16;
         let mut radiance = Color::black();
-        let mut walk = Walk {
-            ray: camera_ray,
-            throughput: Color::white(),
-            eta: 1.0,
-            arrival: Arrival::Certain,
-            view: View::Unobstructed,
-        };
+        let mut walk = Walk::from_camera(camera_ray);
         rays.camera += 1;
         for depth in 1..=longest {
             let Some(point) = self.next_surface(&mut walk, rays) else {

@@ -128,3 +128,22 @@ fn parameters_outside_their_domain_are_refused() {
     assert_eq!(error(lens(-1.0, 1.0), 0.1, 1.0, FILM), Some(CameraError::Aperture(-1.0)));
     assert_eq!(error(lens(1.0, 0.0), 0.1, 1.0, FILM), Some(CameraError::FocusDistance(0.0)));
 }
+
+#[test]
+fn depth_is_along_the_axis_whatever_the_scale() {
+    let at = |scale: f64| {
+        let scaled = view().compose(&Transform::scale(DVec3::splat(scale)).expect("a size"));
+        let projection =
+            Projection::Perspective { field_of_view: VIEW, principal_point_offset: [0.0; 2] };
+        Camera::new(projection, scaled.expect("a transform"), 0.5, 100.0, FILM).expect("a camera")
+    };
+    for camera in [at(1.0), at(3.0)] {
+        let axis = camera.ray([20.0, 15.0], [0.0; 2]);
+        // Rays begin on the near plane, at 0.5; a few roundings of coordinates up to 13.
+        assert!((camera.depth(axis.at(2.0)) - 2.5).abs() < 1e-5);
+        let aside = camera.ray([0.0, 0.0], [0.0; 2]);
+        let cosine = aside.direction.dot(axis.direction);
+        assert!((camera.depth(aside.at(10.0)) - 0.5 - 10.0 * cosine).abs() < 1e-5);
+        assert!(camera.depth(axis.at(-1.0)) < 0.0);
+    }
+}

@@ -1,0 +1,138 @@
+//! Drawing the picture and its layers.
+
+use std::time::{Duration, Instant};
+
+use etendue_renderer::progressive::{Advance, Goal, Halt, ImageError, Round};
+use etendue_renderer::{Image, RenderSettings, Renderer, Statistics};
+use etendue_scene::Scene;
+
+use super::task::{Method, Task};
+use crate::failure::{Exit, Failure};
+use crate::interrupt::Interrupt;
+use crate::output::{Aov, Channel, Sources};
+use crate::progress::{ProgressDisplay, Standing};
+
+/// A picture and what is known of it.
+pub(super) struct Drawing {
+    pub(super) image: Image,
+    pub(super) layers: Vec<Channel>,
+    pub(super) statistics: Statistics,
+    pub(super) whole: Whole,
+    /// Of a progressive render.
+    pub(super) accuracy: Option<Accuracy>,
+}
+
+/// Whether all that was asked for is there.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Whole {
+    Yes,
+    /// Interrupted, but every pixel has samples.
+    WithFewerSamples,
+    /// Interrupted, and some pixels are black.
+    BlackInParts,
+}
+
+/// How accurate a picture is.
+pub(super) struct Accuracy {
+    /// `None` where pixels lack samples.
+    pub(super) error: Option<ImageError>,
+    pub(super) rounds: Vec<Round>,
+}
+
+/// Draws the layers that show what is seen, and then the picture.
+pub(super) fn draw(task: &Task, scene: &Scene, interrupt: &Interrupt) -> Result<Drawing, Failure> {
+    let start = Instant::now();
+    let settings = RenderSettings { threads: task.threads, ..RenderSettings::of_scene(scene) };
+    let renderer =
+        Renderer::new(scene, settings).map_err(|e| Failure::new(Exit::Resource, e.to_string()))?;
+    let seen = |aov: &Aov| !aov.is_of_samples();
+    let features = if task.layers.iter().any(seen) {
+        renderer.features(task.feature_samples, interrupt.flag())
+    } else {
+        Vec::new()
+    };
+    let progress = ProgressDisplay::new(task.quiet);
+    let (mut drawing, variance, samples) = match task.method {
+        Method::Plain => (plain(&renderer, interrupt, &progress), Image::black([0, 0]), Vec::new()),
+        Method::Progressive { goal, time } => {
+            let limits = Limits { goal, time, start };
+            progressive(&renderer, &limits, interrupt, &progress)
+        }
+    };
+    progress.finish();
+    let sources = Sources { features: &features, variance: &variance, samples: &samples };
+    drawing.layers = task.layers.iter().flat_map(|&aov| sources.channels(aov)).collect();
+    Ok(drawing)
+}
+
+fn plain(renderer: &Renderer<'_>, interrupt: &Interrupt, progress: &ProgressDisplay) -> Drawing {
+    let report = |now: etendue_renderer::Progress| {
+        let fraction = now.finished as f64 / now.total as f64;
+        progress.update(Standing { fraction, error: None });
+    };
+    let rendering = renderer.render(&report, interrupt.flag());
+    let finished = rendering.progress.finished == rendering.progress.total;
+    Drawing {
+        image: rendering.image,
+        layers: Vec::new(),
+        statistics: rendering.statistics,
+        whole: if finished { Whole::Yes } else { Whole::BlackInParts },
+        accuracy: None,
+    }
+}
+
+/// The picture, its variance and its samples.
+fn progressive(
+    renderer: &Renderer<'_>,
+    limits: &Limits,
+    interrupt: &Interrupt,
+    progress: &ProgressDisplay,
+) -> (Drawing, Image, Vec<u32>) {
+    let halt = || {
+        if interrupt.requested() {
+            Halt::Now
+        } else if limits.time.is_some_and(|time| limits.start.elapsed() >= time) {
+            Halt::WhenWhole
+        } else {
+            Halt::No
+        }
+    };
+    let report = |now| progress.update(limits.standing(now));
+    let rendering = renderer.render_progressively(&limits.goal, &report, &halt);
+    let whole = match rendering.error {
+        None => Whole::BlackInParts,
+        Some(_) if interrupt.requested() => Whole::WithFewerSamples,
+        Some(_) => Whole::Yes,
+    };
+    let drawing = Drawing {
+        image: rendering.image,
+        layers: Vec::new(),
+        statistics: rendering.statistics,
+        whole,
+        accuracy: Some(Accuracy { error: rendering.error, rounds: rendering.rounds }),
+    };
+    (drawing, rendering.variance, rendering.samples)
+}
+
+/// What ends a render, whichever comes first.
+struct Limits {
+    goal: Goal,
+    time: Option<Duration>,
+    start: Instant,
+}
+
+impl Limits {
+    /// How far the render is towards its nearest end. Errors fall with the root of the samples or
+    /// faster.
+    fn standing(&self, now: Advance) -> Standing {
+        let of_time = self.time.map(|time| self.start.elapsed().as_secs_f64() / time.as_secs_f64());
+        let of_samples =
+            self.goal.samples_per_pixel.map(|limit| now.samples_per_pixel / f64::from(limit));
+        let of_error = self.goal.error.zip(now.error).map(|(bound, error)| {
+            let ratio = bound / error.upper;
+            ratio * ratio
+        });
+        let parts = [of_time, of_samples, of_error].into_iter().flatten();
+        Standing { fraction: parts.fold(0.0, f64::max).min(1.0), error: now.error }
+    }
+}

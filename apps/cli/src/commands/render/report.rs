@@ -1,0 +1,133 @@
+//! What a finished render says about itself.
+
+use etendue_renderer::progressive::{CONFIDENCE, ImageError, factor_for_half};
+use etendue_scene::LoadedScene;
+use serde_json::{Value, json};
+
+use super::Arguments;
+use super::draw::{Drawing, Whole};
+use crate::figures::{error_in_percent, seconds};
+use crate::memory::peak_resident_bytes;
+use crate::output::{Metadata, Output};
+
+pub(super) struct Report<'a> {
+    pub(super) render_seconds: f64,
+    pub(super) build_seconds: f64,
+    pub(super) drawing: &'a Drawing,
+}
+
+impl Report<'_> {
+    pub(super) fn non_finite(&self) -> u64 {
+        self.drawing.statistics.non_finite.count()
+    }
+
+    fn mrays_per_second(&self) -> f64 {
+        self.drawing.statistics.rays.total() as f64 / self.render_seconds.max(1e-9) / 1e6
+    }
+
+    /// Samples per pixel that were drawn, in the mean over the picture.
+    fn samples_per_pixel(&self) -> f64 {
+        let pixels = self.drawing.image.pixels().len();
+        self.drawing.statistics.samples as f64 / pixels.max(1) as f64
+    }
+
+    fn error(&self) -> Option<ImageError> {
+        self.drawing.accuracy.as_ref()?.error
+    }
+
+    /// By how much longer the render would have to take for half of its error.
+    fn factor_for_half(&self) -> Option<f64> {
+        let accuracy = self.drawing.accuracy.as_ref()?;
+        let error = accuracy.error?;
+        (error.estimate > 0.0 && error.estimate.is_finite())
+            .then(|| factor_for_half(&accuracy.rounds))
+    }
+
+    pub(super) fn metadata(&self, arguments: &Arguments, loaded: &LoadedScene) -> Metadata {
+        let sampling = loaded.scene.sampling;
+        let progressive = self.drawing.accuracy.is_some();
+        Metadata {
+            scene: arguments.scene.scene.display().to_string(),
+            samples_per_pixel: if progressive {
+                self.samples_per_pixel()
+            } else {
+                f64::from(sampling.samples_per_pixel)
+            },
+            samples: self.drawing.statistics.samples,
+            seed: sampling.seed,
+            seconds: self.render_seconds,
+            non_finite: self.non_finite(),
+            error: self.error(),
+        }
+    }
+
+    pub(super) fn warn_of_bad_samples(&self, seed: u64) {
+        if self.non_finite() == 0 {
+            return;
+        }
+        eprintln!(
+            "etendue: warning: {} samples were NaN or infinite and were left out; the first of them \
+             with seed {seed}:",
+            self.non_finite()
+        );
+        for address in self.drawing.statistics.non_finite.first() {
+            eprintln!(
+                "etendue:   column {}, row {}, sample {}",
+                address.column, address.row, address.sample
+            );
+        }
+    }
+
+    pub(super) fn summary(&self, output: &Output) -> String {
+        let statistics = &self.drawing.statistics;
+        let memory = peak_resident_bytes()
+            .map_or(String::new(), |bytes| format!(", {} MiB at most", bytes >> 20));
+        let cut = match self.drawing.whole {
+            Whole::Yes => "",
+            Whole::WithFewerSamples => " (interrupted)",
+            Whole::BlackInParts => " (interrupted: parts are black)",
+        };
+        let error = self.error().map_or(String::new(), |error| {
+            let half = self.factor_for_half().map_or(String::new(), |factor| {
+                let longer = seconds(factor * self.render_seconds);
+                format!("; half of it would take {factor:.1} × = {longer}")
+            });
+            format!("\netendue: {}{half}", error_in_percent(&error))
+        });
+        format!(
+            "{} in {:.2} s ({:.2} s to load and build), {} samples, {} rays, {:.1} Mrays/s{memory}{cut}{error}",
+            output.path().display(),
+            self.render_seconds,
+            self.build_seconds,
+            statistics.samples,
+            statistics.rays.total(),
+            self.mrays_per_second(),
+        )
+    }
+
+    pub(super) fn json(&self) -> Value {
+        let statistics = &self.drawing.statistics;
+        let factor = self.factor_for_half();
+        json!({
+            "render_seconds": self.render_seconds,
+            "build_seconds": self.build_seconds,
+            "samples": statistics.samples,
+            "samples_per_pixel": self.samples_per_pixel(),
+            "rays": statistics.rays.total(),
+            "mrays_per_second": self.mrays_per_second(),
+            "peak_rss": peak_resident_bytes(),
+            "non_finite": self.non_finite(),
+            "complete": self.drawing.whole == Whole::Yes,
+            "error": self.error().map(|error| json!({
+                "estimate": error.estimate,
+                "lower": error.lower,
+                "upper": error.upper,
+                "confidence": CONFIDENCE,
+            })),
+            "half_error": factor.map(|factor| json!({
+                "factor": factor,
+                "render_seconds": factor * self.render_seconds,
+            })),
+        })
+    }
+}
