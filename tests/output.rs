@@ -200,11 +200,12 @@ fn a_picture_replaces_the_one_before_and_a_bad_scene_leaves_it() {
 
 /// What is left of a render that would take an hour when a signal comes after it has begun.
 #[cfg(unix)]
-fn interrupted(signal: &str) -> (Folder, Outcome) {
+fn interrupted(signal: &str, length: [&str; 2]) -> (Folder, Outcome) {
     let folder = folder();
     let mut child = folder
         .command(&["render", "scene.xml", "-o", "out.pfm", "--json", "--quiet"])
-        .args(["--spp", "4096", "--size", "1024x1024"])
+        .args(length)
+        .args(["--size", "1024x1024"])
         .stdout(Stdio::piped())
         .stderr(Stdio::piped())
         .spawn()
@@ -240,8 +241,11 @@ fn wait_until_rendering(_: &mut Child) {
 #[cfg(unix)]
 #[test]
 fn an_interrupted_render_saves_what_it_has_and_says_so() {
-    for (signal, exit) in [("-INT", 130), ("-TERM", 143)] {
-        let (folder, outcome) = interrupted(signal);
+    let (plain, progressive) = (["--spp", "4096"], ["--error", "0.0001%"]);
+    for (signal, exit, length) in
+        [("-INT", 130, plain), ("-TERM", 143, plain), ("-INT", 130, progressive)]
+    {
+        let (folder, outcome) = interrupted(signal, length);
         assert_eq!(outcome.exit, Some(exit), "{signal}: {}", outcome.stderr);
         assert_eq!(outcome.json()["complete"].as_bool(), Some(false), "{signal}");
         let picture = Picture::read_pfm(&folder.path("out.pfm"));

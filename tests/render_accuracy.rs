@@ -247,9 +247,9 @@ fn what_cannot_be_done_is_refused_with_a_reason() {
         let joined = arguments[2..].join("=");
         let mut line = vec!["render", "scene.xml", arguments[0], arguments[1]];
         if arguments.len() == 4 {
-            line.push(&joined)
+            line.push(&joined);
         } else {
-            line.extend(&arguments[2..])
+            line.extend(&arguments[2..]);
         }
         let outcome = folder.run(&line);
         assert_eq!(outcome.exit, Some(2), "{line:?}: {}", outcome.stderr);

@@ -41,7 +41,8 @@ const QUANTILE: f64 = 1.959_963_984_540_054;
 /// the sums of a render are finite.
 ///
 /// # Precision
-/// The error of the mean in the denominator, `ε/√pixels`, is left out. Validated from 16 × 16 pixels on.
+/// The error of the mean in the denominator, `ε/√pixels`, is left out. Validated on pictures of
+/// 360 pixels and more.
 ///
 /// # Source
 /// Two half buffers: Rousselle, Knaus, Zwicker, "Adaptive Rendering with Non-Local Means Filtering",
