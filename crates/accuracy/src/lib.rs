@@ -13,4 +13,5 @@
     reason = "for programs on hosts with an operating system"
 )]
 
+pub mod samplers;
 pub mod timing;
