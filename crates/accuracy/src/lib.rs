@@ -14,4 +14,5 @@
 )]
 
 pub mod samplers;
+pub mod scene;
 pub mod timing;

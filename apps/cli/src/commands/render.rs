@@ -224,7 +224,8 @@ fn numbers<const N: usize>(text: &str, separator: char) -> Option<[u32; N]> {
     parsed.try_into().ok()
 }
 
-fn size(text: &str) -> Result<[u32; 2], String> {
+/// Reads a width and a height.
+pub(crate) fn size(text: &str) -> Result<[u32; 2], String> {
     match numbers(text, 'x') {
         Some(size) if !size.contains(&0) => Ok(size),
         _ => Err("expected WIDTHxHEIGHT, as in 640x480, both at least 1".to_owned()),

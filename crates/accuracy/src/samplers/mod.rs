@@ -217,10 +217,10 @@ impl Visitor<f32> for Model<'_> {
 
 /// Every strategy there is for a model: the model's own first. Facet normals only where light is reflected, since
 /// mirroring about them finds no transmission.
-fn contestants<'a>(
-    model: &'a impl Bsdf<Color = f32>,
+fn contestants(
+    model: &impl Bsdf<Color = f32>,
     facets: Option<Microfacets<f32>>,
-) -> Vec<Contestant<'a>> {
+) -> Vec<Contestant<'_>> {
     let sides = if model.lobes().transmission { Sides::Both } else { Sides::Upper };
     let mut contestants = vec![
         Contestant::new("own", Own, model),

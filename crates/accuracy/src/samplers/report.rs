@@ -67,10 +67,8 @@ fn prose(lighting: Lighting) -> String {
             "A light whose radiance falls to 1/e at {LIGHT_DEGREES}° from the mirror direction of the view: the lobe is found \
              by whoever follows it."
         ),
-        Lighting::SideLight => format!(
-            "The same light, 45° above the surface and at a right angle to the plane of view and normal: what every way \
-             of sampling a model finds by chance only, and light sampling is for."
-        ),
+        Lighting::SideLight => "The same light, 45° above the surface and at a right angle to the plane of view and normal: what every way \
+             of sampling a model finds by chance only, and light sampling is for.".to_owned(),
     }
 }
 
@@ -180,12 +178,12 @@ fn chart(measurement: &Measurement, outcomes: &[(&Outcome, bool)], lighting: usi
         x: Axis::log("nanoseconds per sample, point included"),
         y: Axis::log("relative variance of a sample"),
         series: series.collect(),
-        guides: guides(noisy.iter().map(|(outcome, _)| at(outcome)).collect()),
+        guides: guides(&noisy.iter().map(|(outcome, _)| at(outcome)).collect::<Vec<_>>()),
     }
 }
 
 /// Lines of equal efficiency a factor of 10 apart, one of them through the middle of the points.
-fn guides(points: Vec<[f64; 2]>) -> Vec<Guide> {
+fn guides(points: &[[f64; 2]]) -> Vec<Guide> {
     let median = |axis: usize| {
         let mut values: Vec<f64> = points.iter().map(|p| p[axis]).collect();
         values.sort_by(f64::total_cmp);

@@ -68,7 +68,7 @@ impl Spread {
 
     /// What all of them say.
     pub(super) fn variance(&self) -> Variance {
-        let all: Vec<Sums> = self.sums.iter().map(|groups| total(groups)).collect();
+        let all: Vec<Sums> = self.sums.iter().map(total).collect();
         let relative = self.relative(&all, self.replications);
         let groups: Vec<f64> = (0..GROUPS)
             .map(|g| {

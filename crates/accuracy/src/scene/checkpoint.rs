@@ -110,8 +110,9 @@ impl Checkpoint {
     pub fn reference(&self, number: usize) -> Result<Option<Image>, CheckpointError> {
         let path = self.reference_path(number);
         match fs::read(&path) {
-            Ok(bytes) => decode(&bytes).map(Some).ok_or_else(|| {
-                CheckpointError::Content { path, reason: "its length is wrong".to_owned() }
+            Ok(bytes) => decode(&bytes).map(Some).ok_or_else(|| CheckpointError::Content {
+                path,
+                reason: "its length is wrong".to_owned(),
             }),
             Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
             Err(error) => Err(io_error(&path, error)),
@@ -155,7 +156,9 @@ fn differences(there: &Map<String, Value>, here: &Map<String, Value>) -> String 
     let all = here.keys().chain(there.keys().filter(|key| !here.contains_key(*key)));
     let shown = |value: Option<&Value>| value.map_or("nothing".to_owned(), Value::to_string);
     all.filter(|key| there.get(*key) != here.get(*key))
-        .map(|key| format!("{key} is {} there and {} now", shown(there.get(key)), shown(here.get(key))))
+        .map(|key| {
+            format!("{key} is {} there and {} now", shown(there.get(key)), shown(here.get(key)))
+        })
         .collect::<Vec<_>>()
         .join(", ")
 }
@@ -196,7 +199,8 @@ mod tests {
         first.push(record(0)).expect("writable");
         first.push(record(1)).expect("writable");
         assert_eq!(first.reference(0).expect("none yet"), None);
-        let image = Image::from_pixels([1, 2], vec![[0.1, 0.2, 0.3].into(), [1e-9, 4.0, 5.0].into()]);
+        let image =
+            Image::from_pixels([1, 2], vec![[0.1, 0.2, 0.3].into(), [1e-9, 4.0, 5.0].into()]);
         let image = image.expect("two pixels");
         first.keep_reference(0, &image).expect("writable");
         let second = Checkpoint::open(&place, circumstances(1)).expect("the same");

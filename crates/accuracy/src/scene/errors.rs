@@ -2,6 +2,7 @@
 
 use etendue_renderer::Image;
 use etendue_renderer::image_metrics::SizeMismatch;
+use etendue_scene::Color;
 use serde::{Deserialize, Serialize};
 
 /// Pixels are dealt to this many groups, which are independent of each other.
@@ -79,13 +80,17 @@ impl Reference {
     }
 
     /// Mean of a weighted function of pictures, by group. What is not finite in a reference is left out.
-    fn sum<const N: usize>(&self, value: impl Fn([f64; N]) -> f64, images: [&Image; N]) -> [f64; GROUPS] {
+    fn sum<const N: usize>(
+        &self,
+        value: impl Fn([f64; N]) -> f64,
+        images: [&Image; N],
+    ) -> [f64; GROUPS] {
         let mut sums = [0.0; GROUPS];
         let mut count = 0_u64;
         let [r1, r2] = self.halves.each_ref().map(Image::pixels);
         for i in 0..r1.len() {
             let pixels = images.map(|image| image.pixels()[i].to_array());
-            let references = [r1[i], r2[i]].map(|r| r.to_array());
+            let references = [r1[i], r2[i]].map(Color::to_array);
             for channel in 0..3 {
                 let [x, y] = references.map(|r| f64::from(r[channel]));
                 let r = f64::midpoint(x, y);
@@ -113,15 +118,16 @@ mod tests {
     use super::*;
     use etendue_renderer::image_metrics::compare;
     use etendue_sampling::{Decision, Dimension, Independent, Sampler};
-    use etendue_scene::Color;
 
     const SIZE: [u32; 2] = [32, 16];
 
     /// Pixels of the given mean with uniform noise of the given width.
     fn noisy(seed: u64, mean: f32, width: f32) -> Image {
         let pixels = (0..SIZE[0] * SIZE[1]).map(|i| {
-            let number = |d| Independent::at(seed, [i, 0], 0).sample_1d::<f32>(Dimension::camera(d)) - 0.5;
-            let [r, g, b] = [Decision::Film, Decision::Lens, Decision::Time].map(|d| mean + width * number(d));
+            let number =
+                |d| Independent::at(seed, [i, 0], 0).sample_1d::<f32>(Dimension::camera(d)) - 0.5;
+            let [r, g, b] =
+                [Decision::Film, Decision::Lens, Decision::Time].map(|d| mean + width * number(d));
             Color::new(r, g, b)
         });
         Image::from_pixels(SIZE, pixels.collect()).expect("as many pixels")

@@ -58,7 +58,8 @@ impl Estimate {
     /// Seconds until relMSE is `error`.
     pub fn time_to(&self, error: f64) -> Reach {
         let errors = self.errors();
-        let (Some(&[first, first_error]), Some(&[last, last_error])) = (errors.first(), errors.last())
+        let (Some(&[first, first_error]), Some(&[last, last_error])) =
+            (errors.first(), errors.last())
         else {
             return Reach::Never;
         };
@@ -135,7 +136,7 @@ mod tests {
     fn records(bias: f64, scatter: f64) -> Vec<Record> {
         let pair = |spp: u32, pair: u32| {
             let mut errors = PairErrors { noise: 1.0 / f64::from(spp), ..PairErrors::default() };
-            let sign = if pair % 2 == 0 { 1.0 } else { -1.0 };
+            let sign = if pair.is_multiple_of(2) { 1.0 } else { -1.0 };
             errors.bias[0] = bias + sign * scatter / f64::from(spp);
             let seconds = [f64::from(spp), f64::from(spp)];
             Record { variant: "v".to_owned(), samples_per_pixel: spp, pair, seconds, errors }

@@ -118,7 +118,12 @@ impl Subject {
 impl Settings {
     /// What the records of an experiment depend on, for its checkpoint. `scene` stands for the content of all files and
     /// the size of the film, `reference` for a reference that was given.
-    pub fn circumstances(&self, subject: &Subject, scene: u64, reference: Option<u64>) -> Map<String, Value> {
+    pub fn circumstances(
+        &self,
+        subject: &Subject,
+        scene: u64,
+        reference: Option<u64>,
+    ) -> Map<String, Value> {
         let variants: Vec<&str> = subject.variants.iter().map(|v| v.name.as_str()).collect();
         let reference = match reference {
             Some(hash) => json!(format!("given, {hash:016x}")),
@@ -197,7 +202,11 @@ pub fn run(
 }
 
 /// What is left to do: pair, samples, variant. Variants take turns innermost.
-fn jobs<'a>(subject: &'a Subject, settings: &Settings, done: &[Record]) -> Vec<(u32, u32, &'a Variant)> {
+fn jobs<'a>(
+    subject: &'a Subject,
+    settings: &Settings,
+    done: &[Record],
+) -> Vec<(u32, u32, &'a Variant)> {
     let mut jobs = Vec::new();
     for pair in 0..settings.pairs {
         for &samples in &settings.samples {
@@ -236,7 +245,9 @@ fn rendered_reference(
         } else {
             let seed = seed(settings.seed, 0, number as u32);
             let scene = subject.scene(variant);
-            let Some((image, _)) = meter.render(scene, variant, settings.reference_samples, seed)? else {
+            let Some((image, _)) =
+                meter.render(scene, variant, settings.reference_samples, seed)?
+            else {
                 return Ok(None);
             };
             if let Some(checkpoint) = checkpoint {

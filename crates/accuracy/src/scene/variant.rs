@@ -1,8 +1,8 @@
 //! What is compared: ways to render one scene.
 
 use etendue_renderer::{RenderSettings, Strategy};
-use etendue_scene::scene::{PathSettings, SamplerKind};
 use etendue_scene::Scene;
+use etendue_scene::scene::{PathSettings, SamplerKind};
 
 use super::forms::Form;
 
@@ -65,9 +65,13 @@ impl Variant {
             max_depth: Some(depth),
             ..base.clone()
         }));
-        variants.extend(Form::ALL.into_iter().filter(|form| form.changes(&scene.materials)).map(|form| {
-            Self { name: form.name().to_owned(), form: Some(form), ..base.clone() }
-        }));
+        variants.extend(
+            Form::ALL.into_iter().filter(|form| form.changes(&scene.materials)).map(|form| Self {
+                name: form.name().to_owned(),
+                form: Some(form),
+                ..base.clone()
+            }),
+        );
         variants
     }
 

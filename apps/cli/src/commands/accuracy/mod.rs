@@ -7,6 +7,7 @@ use crate::failure::{Exit, Failure};
 mod facts;
 mod report_files;
 mod samplers;
+mod scene;
 
 /// Measures error against time of every variant of a computation.
 #[derive(Debug, clap::Args)]
@@ -18,10 +19,12 @@ pub(crate) struct Arguments {
 #[derive(Debug, Subcommand)]
 enum Command {
     Samplers(samplers::Arguments),
+    Scene(scene::Arguments),
 }
 
 pub(crate) fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     match &arguments.command {
         Command::Samplers(arguments) => samplers::run(arguments),
+        Command::Scene(arguments) => scene::run(arguments),
     }
 }
