@@ -45,9 +45,9 @@ fn samplers_of_a_model_leave_every_kind_of_file() {
         let is_uniform = row["strategy"] == "uniform";
         assert_eq!(row["efficiency_independent"] == "exact", !is_uniform, "{row}");
     }
-    // Three sections of three rows under one line of headings.
+    // One row of the digest, then three sections of three rows, under two lines of headings with an empty line between.
     let csv = fs::read_to_string(folder.path("a.csv")).expect("written");
-    assert_eq!(csv.lines().count(), 10, "{csv}");
+    assert_eq!(csv.lines().count(), 13, "{csv}");
     assert!(fs::read_to_string(folder.path("a.html")).expect("written").contains("<svg"));
     assert!(fs::read_to_string(folder.path("a.svg")).expect("written").starts_with("<svg"));
     let document = fs::read_to_string(folder.path("doc.md")).expect("written");

@@ -6,6 +6,7 @@
 //!
 //! Everything is computed in `f32`, as in the renderer; sums are in `f64`.
 
+mod contest;
 mod contestant;
 mod lighting;
 mod points;

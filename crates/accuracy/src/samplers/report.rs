@@ -2,12 +2,8 @@
 
 use etendue_report::{Axis, Cell, Chart, Guide, Point, Report, Section, Series, Style, Table};
 
-use super::{
-    LIGHT_DEGREES, Lighting, Measurement, Outcome, PointSet, Settings, VIEW_AZIMUTH, VIEW_COSINES,
-};
-
-/// Relative variances below this are the rounding of `f32`: a few hundred ulp of standard deviation.
-const EXACT: f64 = 1e-10;
+use super::contest::{Contest, EXACT};
+use super::{LIGHT_DEGREES, Lighting, Measurement, PointSet, Settings, VIEW_AZIMUTH, VIEW_COSINES};
 
 /// A report of a measurement; `facts` come first.
 pub fn report(
@@ -15,12 +11,12 @@ pub fn report(
     settings: &Settings,
     facts: Vec<(String, String)>,
 ) -> Report {
-    let sections = (0..Lighting::ALL.len()).map(|lighting| section(measurement, lighting));
+    let lightings = (0..Lighting::ALL.len()).map(|lighting| section(measurement, lighting));
     Report {
         title: "Sampling of reflection models".to_owned(),
         facts: facts.into_iter().chain(own_facts(measurement, settings)).collect(),
         introduction: introduction(settings),
-        sections: sections.collect(),
+        sections: core::iter::once(digest(measurement)).chain(lightings).collect(),
     }
 }
 
@@ -72,6 +68,53 @@ fn prose(lighting: Lighting) -> String {
     }
 }
 
+/// What each model's own sampler is worth.
+fn digest(measurement: &Measurement) -> Section {
+    let mut table = Table::new([
+        ("model", "model"),
+        ("furnace", "furnace"),
+        ("furnace_best", "best"),
+        ("mirror_light", "light in mirror direction"),
+        ("mirror_light_best", "best"),
+        ("side_light", "light aside"),
+        ("side_light_best", "best"),
+    ]);
+    let lightings: Vec<Vec<Contest<'_>>> =
+        (0..Lighting::ALL.len()).map(|lighting| Contest::all(measurement, lighting)).collect();
+    for model in 0..lightings[0].len() {
+        let mut cells = Vec::new();
+        for contest in lightings.iter().map(|contests| contests[model]) {
+            let own = &contest.outcomes[0];
+            if cells.is_empty() {
+                cells.push(Cell::text(own.model));
+            }
+            let best: Vec<&str> = contest
+                .outcomes
+                .iter()
+                .filter(|outcome| contest.is_best(outcome))
+                .map(|outcome| outcome.strategy)
+                .collect();
+            cells.push(share(contest.best_share(own)));
+            cells.push(Cell::text(best.join(" = ")));
+        }
+        table.push(cells);
+    }
+    Section {
+        name: "own".to_owned(),
+        heading: "What the models' own samplers are worth".to_owned(),
+        prose: vec![
+            "Efficiency of the model's own sampler as a share of that of the best, either with the better kind of points."
+                .to_owned(),
+        ],
+        table,
+        ..Section::default()
+    }
+}
+
+fn share(efficiency: Option<f64>) -> Cell {
+    efficiency.map_or(Cell::text("exact"), Cell::number)
+}
+
 fn section(measurement: &Measurement, lighting: usize) -> Section {
     let name = Lighting::ALL[lighting];
     let mut table = Table::new([
@@ -87,51 +130,26 @@ fn section(measurement: &Measurement, lighting: usize) -> Section {
         ("efficiency_sobol", "efficiency, Sobol'"),
         ("best", "best"),
     ]);
-    let mut charted = Vec::new();
-    for outcomes in measurement.outcomes.chunk_by(|a, b| a.model == b.model) {
-        let efficiency = |outcome: &Outcome, set: PointSet| {
-            let [points, seconds] =
-                [measurement.point_nanoseconds[set as usize], outcome.timing.nanoseconds];
-            1.0 / (outcome.variances[set as usize][lighting].relative * (points + seconds))
-        };
-        let exact = |outcome: &Outcome, set: PointSet| {
-            outcome.variances[set as usize][lighting].relative < EXACT
-        };
-        let contested = outcomes.iter().flat_map(|o| PointSet::ALL.map(|set| (o, set)));
-        let best = contested
-            .filter(|(o, set)| !exact(o, *set))
-            .map(|(o, set)| efficiency(o, set))
-            .filter(|e| e.is_finite())
-            .fold(0.0, f64::max);
-        let any_exact = outcomes.iter().any(|o| PointSet::ALL.iter().any(|set| exact(o, *set)));
-        for outcome in outcomes {
-            let is_best = PointSet::ALL.iter().any(|&set| {
-                if any_exact { exact(outcome, set) } else { efficiency(outcome, set) == best }
-            });
-            let [independent, sobol] =
-                PointSet::ALL.map(|set| &outcome.variances[set as usize][lighting]);
+    let contests = Contest::all(measurement, lighting);
+    for contest in &contests {
+        for outcome in contest.outcomes {
+            let independent = contest.variance(outcome, PointSet::Independent);
             let mut cells = vec![
                 Cell::text(outcome.model),
                 Cell::text(outcome.strategy),
                 Cell::number(outcome.timing.nanoseconds),
                 Cell::number(mean(&independent.means)),
             ];
-            for (set, variance) in [(PointSet::Independent, independent), (PointSet::Sobol, sobol)]
-            {
-                let uncertainty = Cell::Number { value: 100.0 * variance.uncertainty, digits: 2 };
-                cells.push(Cell::number(variance.relative));
-                cells.push(if exact(outcome, set) { Cell::Missing } else { uncertainty });
-            }
             for set in PointSet::ALL {
-                cells.push(if exact(outcome, set) {
-                    Cell::text("exact")
-                } else {
-                    Cell::number(efficiency(outcome, set) / best)
-                });
+                let variance = contest.variance(outcome, set);
+                let uncertainty = Cell::Number { value: 100.0 * variance.uncertainty, digits: 2 };
+                let is_exact = variance.relative < EXACT;
+                cells.push(Cell::number(variance.relative));
+                cells.push(if is_exact { Cell::Missing } else { uncertainty });
             }
-            cells.push(Cell::Flag(is_best));
+            cells.extend(PointSet::ALL.map(|set| share(contest.relative_efficiency(outcome, set))));
+            cells.push(Cell::Flag(contest.is_best(outcome)));
             table.push(cells);
-            charted.push((outcome, is_best));
         }
     }
     Section {
@@ -139,7 +157,7 @@ fn section(measurement: &Measurement, lighting: usize) -> Section {
         heading: name.heading().to_owned(),
         prose: vec![prose(name)],
         table,
-        charts: vec![chart(measurement, &charted, lighting)],
+        charts: vec![chart(&contests, name)],
         advice: Vec::new(),
     }
 }
@@ -149,36 +167,36 @@ fn mean(values: &[f64]) -> f64 {
 }
 
 /// Variance against time with independent points, a series for each strategy.
-fn chart(measurement: &Measurement, outcomes: &[(&Outcome, bool)], lighting: usize) -> Chart {
-    let at = |outcome: &Outcome| {
-        let time = measurement.point_nanoseconds[0] + outcome.timing.nanoseconds;
-        [time, outcome.variances[0][lighting].relative]
-    };
-    let noisy: Vec<_> =
-        outcomes.iter().filter(|(outcome, _)| at(outcome)[1] >= EXACT).copied().collect();
-    let mut strategies: Vec<&str> = Vec::new();
-    for (outcome, _) in &noisy {
-        if !strategies.contains(&outcome.strategy) {
-            strategies.push(outcome.strategy);
+fn chart(contests: &[Contest<'_>], lighting: Lighting) -> Chart {
+    let mut series: Vec<Series> = Vec::new();
+    for contest in contests {
+        for outcome in contest.outcomes {
+            let variance = contest.variance(outcome, PointSet::Independent).relative;
+            if variance < EXACT {
+                continue;
+            }
+            let point = Point {
+                at: [contest.nanoseconds(outcome, PointSet::Independent), variance],
+                label: outcome.model.to_owned(),
+                filled: contest.is_best(outcome),
+            };
+            match series.iter_mut().find(|s| s.name == outcome.strategy) {
+                Some(series) => series.points.push(point),
+                None => series.push(Series {
+                    name: outcome.strategy.to_owned(),
+                    style: Style::Markers,
+                    points: vec![point],
+                }),
+            }
         }
     }
-    let series = strategies.iter().map(|&strategy| {
-        let points = noisy.iter().filter(|(o, _)| o.strategy == strategy).map(|&(o, best)| Point {
-            at: at(o),
-            label: o.model.to_owned(),
-            filled: best,
-        });
-        Series { name: strategy.to_owned(), style: Style::Markers, points: points.collect() }
-    });
+    let points: Vec<_> = series.iter().flat_map(|s| s.points.iter().map(|p| p.at)).collect();
     Chart {
-        title: format!(
-            "{}: variance against time, independent points",
-            Lighting::ALL[lighting].heading()
-        ),
+        title: format!("{}: variance against time, independent points", lighting.heading()),
         x: Axis::log("nanoseconds per sample, point included"),
         y: Axis::log("relative variance of a sample"),
-        series: series.collect(),
-        guides: guides(&noisy.iter().map(|(outcome, _)| at(outcome)).collect::<Vec<_>>()),
+        series,
+        guides: guides(&points),
     }
 }
 

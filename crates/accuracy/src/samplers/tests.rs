@@ -112,4 +112,10 @@ fn the_report_holds_every_outcome_under_every_light_and_says_what_is_exact() {
     let own = &json["sections"]["furnace"]["rows"][3];
     assert_eq!((&own["model"], &own["strategy"]), (&"lambert".into(), &"own".into()));
     assert_eq!(own["efficiency_independent"], "exact");
+    let digest = json["sections"]["own"]["rows"].as_array().expect("rows");
+    assert_eq!(digest.len(), 2);
+    assert_eq!(
+        (&digest[1]["furnace"], &digest[1]["furnace_best"]),
+        (&"exact".into(), &"own = cosine".into())
+    );
 }

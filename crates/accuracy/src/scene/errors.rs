@@ -24,7 +24,10 @@ pub struct Reference {
 /// bias   = ½ (⟨a − r₁, b − r₂⟩ + ⟨a − r₂, b − r₁⟩)         squared bias; negative by chance where there is none
 /// ```
 ///
-/// Both are unbiased estimates, and with one exact reference their sum is the mean relMSE of the two pictures
+/// For what leaves something out of a variant f that the references are drawn from as well, with pictures a₀, b₀ of f from the
+/// seeds of a and b, most of the noise cancels: `bias = ⟨a − a₀, b − b₀⟩`.
+///
+/// All are unbiased estimates, and with one exact reference their sum is the mean relMSE of the two pictures
 /// ([`Comparison::relative_mse`](etendue_renderer::image_metrics::Comparison::relative_mse)).
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct PairErrors {
@@ -74,9 +77,29 @@ impl Reference {
         check(a.size(), self.size())?;
         check(b.size(), self.size())?;
         let [r1, r2] = &self.halves;
-        let noise = self.sum(|[a, b]| 0.5 * (a - b) * (a - b), [a, b]);
         let cross = |[a, b, r1, r2]: [f64; 4]| 0.5 * ((a - r1) * (b - r2) + (a - r2) * (b - r1));
-        Ok(PairErrors { noise: noise.iter().sum(), bias: self.sum(cross, [a, b, r1, r2]) })
+        Ok(PairErrors { noise: self.noise(a, b), bias: self.sum(cross, [a, b, r1, r2]) })
+    }
+
+    /// What two pictures say of which the ones of `full` with the same seeds are known: the bias against those.
+    ///
+    /// # Errors
+    /// A picture of another size.
+    pub fn compare_with(
+        &self,
+        [a, b]: [&Image; 2],
+        full: &[Image; 2],
+    ) -> Result<PairErrors, SizeMismatch> {
+        let [a0, b0] = full;
+        for image in [a, b, a0, b0] {
+            check(image.size(), self.size())?;
+        }
+        let cross = |[a, b, a0, b0]: [f64; 4]| (a - a0) * (b - b0);
+        Ok(PairErrors { noise: self.noise(a, b), bias: self.sum(cross, [a, b, a0, b0]) })
+    }
+
+    fn noise(&self, a: &Image, b: &Image) -> f64 {
+        self.sum(|[a, b]| 0.5 * (a - b) * (a - b), [a, b]).iter().sum()
     }
 
     /// Mean of a weighted function of pictures, by group. What is not finite in a reference is left out.

@@ -157,10 +157,9 @@ pub fn run(
 ) -> Result<Option<Outcome>, ExperimentError> {
     let mut records = checkpoint.as_ref().map_or(Vec::new(), |c| c.records().to_vec());
     let is_given = given.is_some();
-    let jobs: Vec<(u32, u32, &Variant)> = jobs(subject, settings, &records);
-    let cost = |samples: u32| 2 * samples as usize;
-    let reference_cost = if is_given { 0 } else { cost(settings.reference_samples) };
-    let total = reference_cost + jobs.iter().map(|(_, samples, _)| cost(*samples)).sum::<usize>();
+    let rounds = rounds(subject, settings, &records, is_given);
+    let reference_cost = if is_given { 0 } else { 2 * settings.reference_samples as usize };
+    let total = reference_cost + rounds.iter().map(Round::cost).sum::<usize>();
     let mut meter = Meter { finished: 0, total, threads: settings.threads, watch };
 
     let reference = match given {
@@ -170,24 +169,39 @@ pub fn run(
             None => return Ok(None),
         },
     };
-    for (pair, samples, variant) in jobs {
-        let mut render = |side: u32| {
-            let seed = seed(settings.seed, samples, 2 * pair + side);
-            meter.render(subject.scene(variant), variant, samples, seed)
-        };
-        let (Some((a, seconds_a)), Some((b, seconds_b))) = (render(0)?, render(1)?) else {
-            return Ok(None);
-        };
-        let record = Record {
-            variant: variant.name.clone(),
-            samples_per_pixel: samples,
-            pair,
-            seconds: [seconds_a, seconds_b],
-            errors: reference.compare(&a, &b)?,
-        };
-        records.push(record.clone());
-        if let Some(checkpoint) = &mut checkpoint {
-            checkpoint.push(record)?;
+    for Round { pair, samples, variants } in rounds {
+        // Of the first variant, from which the reference is drawn: what the others leave out of it.
+        let mut full: Option<[Image; 2]> = None;
+        for (variant, is_done) in variants {
+            let mut render = |side: u32| {
+                let seed = seed(settings.seed, samples, 2 * pair + side);
+                meter.render(subject.scene(variant), variant, samples, seed)
+            };
+            let (Some((a, seconds_a)), Some((b, seconds_b))) = (render(0)?, render(1)?) else {
+                return Ok(None);
+            };
+            if !is_done {
+                let errors = match &full {
+                    Some(full) if variant.kind == Kind::Approximation => {
+                        reference.compare_with([&a, &b], full)?
+                    }
+                    _ => reference.compare(&a, &b)?,
+                };
+                let record = Record {
+                    variant: variant.name.clone(),
+                    samples_per_pixel: samples,
+                    pair,
+                    seconds: [seconds_a, seconds_b],
+                    errors,
+                };
+                records.push(record.clone());
+                if let Some(checkpoint) = &mut checkpoint {
+                    checkpoint.push(record)?;
+                }
+            }
+            if !is_given && *variant == subject.variants[0] {
+                full = Some([a, b]);
+            }
         }
     }
     let estimates = subject.variants.iter().filter_map(|variant| {
@@ -201,26 +215,53 @@ pub fn run(
     }))
 }
 
-/// What is left to do: pair, samples, variant. Variants take turns innermost.
-fn jobs<'a>(
+/// Pictures with the same seeds: variants take turns, the first one first.
+struct Round<'a> {
+    pair: u32,
+    samples: u32,
+    /// What is to be rendered, and whether its record is there already.
+    variants: Vec<(&'a Variant, bool)>,
+}
+
+impl Round<'_> {
+    /// Samples per pixel in all.
+    fn cost(&self) -> usize {
+        2 * self.samples as usize * self.variants.len()
+    }
+}
+
+/// What is left to do. The first variant is rendered again where others are compared with it.
+fn rounds<'a>(
     subject: &'a Subject,
     settings: &Settings,
     done: &[Record],
-) -> Vec<(u32, u32, &'a Variant)> {
-    let mut jobs = Vec::new();
+    reference_is_given: bool,
+) -> Vec<Round<'a>> {
+    let mut rounds = Vec::new();
     for pair in 0..settings.pairs {
         for &samples in &settings.samples {
-            for variant in &subject.variants {
-                let is_done = done.iter().any(|r| {
-                    (r.pair, r.samples_per_pixel, &r.variant) == (pair, samples, &variant.name)
-                });
-                if !is_done {
-                    jobs.push((pair, samples, variant));
-                }
-            }
+            let is_done = |variant: &Variant| {
+                done.iter().any(|record| {
+                    (record.pair, record.samples_per_pixel) == (pair, samples)
+                        && record.variant == variant.name
+                })
+            };
+            let compared = |variant: &Variant| {
+                !reference_is_given && variant.kind == Kind::Approximation && !is_done(variant)
+            };
+            let first_is_needed = subject.variants.iter().any(compared);
+            let variants: Vec<(&Variant, bool)> = subject
+                .variants
+                .iter()
+                .enumerate()
+                .map(|(i, variant)| (i, variant, is_done(variant)))
+                .filter(|(i, _, is_done)| !is_done || (*i == 0 && first_is_needed))
+                .map(|(_, variant, is_done)| (variant, is_done))
+                .collect();
+            rounds.push(Round { pair, samples, variants });
         }
     }
-    jobs
+    rounds
 }
 
 /// Different for every number of samples, so that levels are independent; 0 samples stand for the references.

@@ -40,16 +40,19 @@ fn own_facts(outcome: &Outcome, settings: &Settings) -> Vec<(String, String)> {
 }
 
 fn introduction(outcome: &Outcome) -> String {
-    let reference = if outcome.reference_error.is_some() {
-        "The reference is rendered as the first variant is, twice: its own noise is in no figure, but what that variant leaves \
-         out is."
+    let (compared, reference) = if outcome.reference_error.is_some() {
+        (
+            "What leaves something out is compared with pictures of the first variant with the same seeds instead. ",
+            "The reference is rendered as the first variant is, twice: its own noise is in no figure, and what that variant \
+             leaves out itself is not seen.",
+        )
     } else {
-        "The reference was given: its noise counts as bias of every variant."
+        ("", "The reference was given: its noise counts as bias of every variant.")
     };
     format!(
         "relMSE, `mean((x − r)² / (r² + 0.01))`, is the sum of noise, which time pays back, and of squared bias, which it \
          does not. Pictures come in pairs with independent seeds: half the squared difference of the two is noise, the product \
-         of their differences from the reference is bias. A bias counts where it is more than four standard errors; it is then \
+         of their differences from the reference is bias. {compared}A bias counts where it is more than four standard errors; it is then \
          the floor of a variant. {reference} Seconds are the median over the pictures, preparations apart."
     )
 }
@@ -146,7 +149,7 @@ fn levels(outcome: &Outcome) -> Section {
         for level in &estimate.levels {
             table.push([
                 Cell::text(&variant.name),
-                Cell::Number { value: level.samples_per_pixel.into(), digits: 6 },
+                count(level.samples_per_pixel),
                 Cell::number(level.seconds),
                 Cell::number(level.noise + floor),
                 Cell::number(level.noise),
@@ -162,6 +165,11 @@ fn levels(outcome: &Outcome) -> Section {
         table,
         ..Section::default()
     }
+}
+
+/// A number of which all digits count.
+fn count(n: u32) -> Cell {
+    Cell::Number { value: n.into(), digits: n.max(1).ilog10() as usize + 1 }
 }
 
 /// relMSE against seconds of the variants that are wanted, with their floors and what 1/time means.
