@@ -187,7 +187,8 @@ mod tests {
     }
 
     fn record(pair: u32) -> Record {
-        let errors = PairErrors { noise: 0.1, bias: [1.0 / 3.0; super::super::errors::GROUPS] };
+        let errors =
+            PairErrors { noise: 0.1, bias: [1.0 / 3.0; super::super::errors::GROUPS], flip: 0.2 };
         Record { variant: "v".to_owned(), samples_per_pixel: 4, pair, seconds: [0.1, 0.2], errors }
     }
 

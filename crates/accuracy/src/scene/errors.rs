@@ -1,7 +1,9 @@
 //! Noise and bias of two independent pictures of one kind.
 
+use etendue_math::Spectrum;
 use etendue_renderer::Image;
 use etendue_renderer::image_metrics::SizeMismatch;
+use etendue_renderer::image_metrics::flip::{self, HdrReference};
 use etendue_scene::Color;
 use serde::{Deserialize, Serialize};
 
@@ -11,9 +13,10 @@ pub const GROUPS: usize = 16;
 /// What pictures are compared with: two references of the same expectation.
 ///
 /// With independent noise in the two, products of differences from the one and from the other have no share of it.
-#[derive(Clone, Debug, PartialEq)]
 pub struct Reference {
     halves: [Image; 2],
+    /// Of the mean of both.
+    flip: HdrReference,
 }
 
 /// What two pictures a, b of one variant with independent seeds say.
@@ -35,12 +38,14 @@ pub struct PairErrors {
     pub noise: f64,
     /// Squared bias, as a sum of the shares of groups of pixels.
     pub bias: [f64; GROUPS],
+    /// Mean HDR-FLIP of the first picture against the mean of the references.
+    pub flip: f64,
 }
 
 impl Reference {
     /// One picture, taken as it is: its noise counts as bias of everything that is compared with it.
     pub fn given(image: Image) -> Self {
-        Self { halves: [image.clone(), image] }
+        Self { flip: HdrReference::new(&image), halves: [image.clone(), image] }
     }
 
     /// Two pictures with independent noise.
@@ -50,7 +55,10 @@ impl Reference {
     pub fn halves(halves: [Image; 2]) -> Result<Self, SizeMismatch> {
         let sizes = [halves[0].size(), halves[1].size()];
         check(sizes[0], sizes[1])?;
-        Ok(Self { halves })
+        let [a, b] = &halves;
+        let pixels = a.pixels().iter().zip(b.pixels()).map(|(&a, &b)| (a + b).scale(0.5));
+        let mean = Image::from_pixels(a.size(), pixels.collect()).unwrap_or_else(|| a.clone());
+        Ok(Self { flip: HdrReference::new(&mean), halves })
     }
 
     /// Width and height.
@@ -78,7 +86,7 @@ impl Reference {
         check(b.size(), self.size())?;
         let [r1, r2] = &self.halves;
         let cross = |[a, b, r1, r2]: [f64; 4]| 0.5 * ((a - r1) * (b - r2) + (a - r2) * (b - r1));
-        Ok(PairErrors { noise: self.noise(a, b), bias: self.sum(cross, [a, b, r1, r2]) })
+        self.errors([a, b], self.sum(cross, [a, b, r1, r2]))
     }
 
     /// What two pictures say of which the ones of `full` with the same seeds are known: the bias against those.
@@ -95,11 +103,12 @@ impl Reference {
             check(image.size(), self.size())?;
         }
         let cross = |[a, b, a0, b0]: [f64; 4]| (a - a0) * (b - b0);
-        Ok(PairErrors { noise: self.noise(a, b), bias: self.sum(cross, [a, b, a0, b0]) })
+        self.errors([a, b], self.sum(cross, [a, b, a0, b0]))
     }
 
-    fn noise(&self, a: &Image, b: &Image) -> f64 {
-        self.sum(|[a, b]| 0.5 * (a - b) * (a - b), [a, b]).iter().sum()
+    fn errors(&self, [a, b]: [&Image; 2], bias: [f64; GROUPS]) -> Result<PairErrors, SizeMismatch> {
+        let noise = self.sum(|[a, b]| 0.5 * (a - b) * (a - b), [a, b]).iter().sum();
+        Ok(PairErrors { noise, bias, flip: flip::mean(&self.flip.differences(a)?) })
     }
 
     /// Mean of a weighted function of pictures, by group. What is not finite in a reference is left out.

@@ -14,6 +14,8 @@ pub struct Level {
     pub noise: f64,
     /// Squared bias and its standard error.
     pub bias: [f64; 2],
+    /// Mean HDR-FLIP of a picture.
+    pub flip: f64,
 }
 
 /// A variant.
@@ -112,6 +114,7 @@ fn level(records: &[&Record]) -> Level {
         seconds: median,
         noise: records.iter().map(|r| r.errors.noise).sum::<f64>() / n,
         bias: [bias, variance.sqrt()],
+        flip: records.iter().map(|r| r.errors.flip).sum::<f64>() / n,
     }
 }
 

@@ -143,6 +143,7 @@ fn levels(outcome: &Outcome) -> Section {
         ("noise", "noise"),
         ("squared_bias", "squared bias"),
         ("bias_standard_error", "±"),
+        ("flip", "ꟻLIP"),
     ]);
     for (variant, estimate) in &outcome.estimates {
         let floor = estimate.floor();
@@ -155,14 +156,18 @@ fn levels(outcome: &Outcome) -> Section {
                 Cell::number(level.noise),
                 Cell::Number { value: level.bias[0], digits: 2 },
                 Cell::Number { value: level.bias[1], digits: 2 },
+                Cell::number(level.flip),
             ]);
         }
     }
     Section {
         name: "levels".to_owned(),
         heading: "Every level".to_owned(),
-        prose: vec!["relMSE is noise and the floor of the variant; squared bias is that of the level alone.".to_owned()],
+        prose: vec!["relMSE is noise and the floor of the variant; squared bias is that of the level alone. ꟻLIP is the mean of HDR-ꟻLIP \
+             over the pixels, against the mean of the references: from 0, no difference seen, to 1."
+                .to_owned()],
         table,
+        charts: vec![flip_chart(outcome)],
         ..Section::default()
     }
 }
@@ -176,11 +181,7 @@ fn count(n: u32) -> Cell {
 fn chart(outcome: &Outcome, title: &str, wanted: impl Fn(&Variant) -> bool) -> Chart {
     let chosen: Vec<&(Variant, Estimate)> =
         outcome.estimates.iter().filter(|(variant, _)| wanted(variant)).collect();
-    let series = chosen.iter().map(|(variant, estimate)| Series {
-        name: variant.name.clone(),
-        style: Style::Line,
-        points: estimate.errors().into_iter().map(|at| Point { at, ..Point::default() }).collect(),
-    });
+    let series = chosen.iter().map(|(variant, estimate)| line(variant, estimate.errors()));
     let floors = chosen.iter().filter(|(_, estimate)| estimate.floor() > 0.0);
     let mut guides: Vec<Guide> = floors
         .map(|(variant, estimate)| Guide::Level {
@@ -202,4 +203,24 @@ fn chart(outcome: &Outcome, title: &str, wanted: impl Fn(&Variant) -> bool) -> C
         series: series.collect(),
         guides,
     }
+}
+
+/// FLIP against seconds of ways to find light.
+fn flip_chart(outcome: &Outcome) -> Chart {
+    let chosen = outcome.estimates.iter().filter(|(variant, _)| variant.kind == Kind::Strategy);
+    let series = chosen.map(|(variant, estimate)| {
+        line(variant, estimate.levels.iter().map(|level| [level.seconds, level.flip]).collect())
+    });
+    Chart {
+        title: "Ways to find light: ꟻLIP".to_owned(),
+        x: Axis::log("seconds"),
+        y: Axis::log("mean HDR-ꟻLIP"),
+        series: series.collect(),
+        guides: Vec::new(),
+    }
+}
+
+fn line(variant: &Variant, points: Vec<[f64; 2]>) -> Series {
+    let points = points.into_iter().map(|at| Point { at, ..Point::default() });
+    Series { name: variant.name.clone(), style: Style::Line, points: points.collect() }
 }

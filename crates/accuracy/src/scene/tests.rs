@@ -66,6 +66,8 @@ fn what_is_left_out_is_a_bias_and_ways_to_find_light_are_not() {
     // Independent samples: noise falls as 1/n; estimates over 144 pixels and 4 pairs are good to some 20 %.
     let noise: Vec<f64> = base.levels.iter().map(|level| level.noise).collect();
     assert!((noise[0] / noise[2] / 16.0 - 1.0).abs() < 0.6, "{noise:?}");
+    let flip: Vec<f64> = base.levels.iter().map(|level| level.flip).collect();
+    assert!(flip[0] > flip[1] && flip[1] > flip[2] && flip[2] > 0.0 && flip[0] < 1.0, "{flip:?}");
     let own = outcome.reference_error.expect("rendered");
     assert!(own > 0.0 && own < noise[2], "{own}");
 }

@@ -6,7 +6,8 @@
 //!       └─ luminance ─ edges and points ─────────────────────────────────── larger ΔEf ──┘
 //! ```
 //!
-//! [`ldr`] is for what a screen shows, [`hdr`] the largest over the exposures at which a picture may be shown.
+//! [`ldr`] is for what a screen shows, [`hdr`] the largest over the exposures at which a picture may be shown;
+//! [`HdrReference`] is the same for many pictures.
 //!
 //! # Source
 //! P. Andersson et al., FLIP: A Difference Evaluator for Alternating Images, HPG 2020; Visualizing Errors in Rendered High
@@ -37,8 +38,9 @@ pub const PIXELS_PER_DEGREE: f64 = 0.7 * (3840.0 / 0.7) * core::f64::consts::PI 
 pub fn ldr(image: &Image, reference: &Image) -> Result<Vec<f64>, SizeMismatch> {
     check_sizes(image, reference)?;
     let kernels = Kernels::new(PIXELS_PER_DEGREE);
-    let clipped = |image| shown(image, |x: f64| x.clamp_to(0.0, 1.0));
-    Ok(differences(&clipped(image), &clipped(reference), size(image), &kernels))
+    let [image, reference] =
+        [image, reference].map(|picture| Seen::of(picture, |x| x.clamp_to(0.0, 1.0), &kernels));
+    Ok(differences(&image, &reference))
 }
 
 /// Differences of the pixels of two pictures of radiance: the largest of [`ldr`] over exposures, tone mapped, from
@@ -47,17 +49,45 @@ pub fn ldr(image: &Image, reference: &Image) -> Result<Vec<f64>, SizeMismatch> {
 /// # Errors
 /// Pictures of different sizes, or without pixels.
 pub fn hdr(image: &Image, reference: &Image) -> Result<Vec<f64>, SizeMismatch> {
-    check_sizes(image, reference)?;
-    let kernels = Kernels::new(PIXELS_PER_DEGREE);
-    let mut largest = vec![0.0; image.pixels().len()];
-    for exposure in exposure::exposures(reference) {
-        let mapped = |image| shown(image, |x| exposure::tone_map(x * exposure));
-        let seen = differences(&mapped(image), &mapped(reference), size(image), &kernels);
-        for (largest, seen) in largest.iter_mut().zip(seen) {
-            *largest = seen.max(*largest);
-        }
+    HdrReference::new(reference).differences(image)
+}
+
+/// A reference for [`hdr`], prepared for many pictures.
+pub struct HdrReference {
+    size: [u32; 2],
+    kernels: Kernels,
+    /// By exposure.
+    seen: Vec<(f64, Seen)>,
+}
+
+impl HdrReference {
+    /// Prepares a reference.
+    pub fn new(reference: &Image) -> Self {
+        let kernels = Kernels::new(PIXELS_PER_DEGREE);
+        let seen = exposure::exposures(reference)
+            .into_iter()
+            .map(|exposure| (exposure, seen_at(reference, exposure, &kernels)))
+            .collect();
+        Self { size: reference.size(), kernels, seen }
     }
-    Ok(largest)
+
+    /// The differences of a picture, as [`hdr`] gives them.
+    ///
+    /// # Errors
+    /// A picture of another size, or without pixels.
+    pub fn differences(&self, image: &Image) -> Result<Vec<f64>, SizeMismatch> {
+        if image.size() != self.size || image.pixels().is_empty() {
+            return Err(SizeMismatch { image: image.size(), reference: self.size });
+        }
+        let mut largest = vec![0.0; image.pixels().len()];
+        for (exposure, reference) in &self.seen {
+            let image = seen_at(image, *exposure, &self.kernels);
+            for (largest, seen) in largest.iter_mut().zip(differences(&image, reference)) {
+                *largest = seen.max(*largest);
+            }
+        }
+        Ok(largest)
+    }
 }
 
 /// Mean of the differences of pixels; 0 for none.
@@ -65,14 +95,29 @@ pub fn mean(differences: &[f64]) -> f64 {
     differences.iter().sum::<f64>() / differences.len().max(1) as f64
 }
 
-fn size(image: &Image) -> [usize; 2] {
-    image.size().map(|n| n as usize)
+/// What is seen of one picture on a screen.
+struct Seen {
+    /// Hunt-adjusted L*a*b* by pixel.
+    colours: Vec<[f64; 3]>,
+    /// Strength of edges and of points by pixel.
+    features: [Vec<f64>; 2],
 }
 
-/// Opponent colours of what is shown of a picture.
-fn shown(image: &Image, channel: impl Fn(f64) -> f64) -> Vec<Opponent> {
-    let finite = |x: f32| if x.is_nan() { 0.0 } else { f64::from(x) };
-    image.pixels().iter().map(|p| Opponent::of(p.to_array().map(|x| channel(finite(x))))).collect()
+impl Seen {
+    fn of(image: &Image, channel: impl Fn(f64) -> f64, kernels: &Kernels) -> Self {
+        let shown = |x: f32| channel(if x.is_nan() { 0.0 } else { f64::from(x) });
+        let pixels: Vec<Opponent> =
+            image.pixels().iter().map(|p| Opponent::of(p.to_array().map(shown))).collect();
+        let size = image.size().map(|n| n as usize);
+        Self {
+            colours: perceived(&pixels, size, kernels),
+            features: features(&pixels, size, kernels),
+        }
+    }
+}
+
+fn seen_at(image: &Image, exposure: f64, kernels: &Kernels) -> Seen {
+    Seen::of(image, |x| exposure::tone_map(x * exposure), kernels)
 }
 
 /// Exponent of colour differences.
@@ -84,17 +129,9 @@ const BEND: f64 = 0.4;
 /// … this.
 const BENT: f64 = 0.95;
 
-fn differences(
-    image: &[Opponent],
-    reference: &[Opponent],
-    size: [usize; 2],
-    kernels: &Kernels,
-) -> Vec<f64> {
-    let [colours, reference_colours] = [image, reference].map(|p| perceived(p, size, kernels));
-    let [features, reference_features] = [image, reference].map(|p| features(p, size, kernels));
-    let corner = |rgb| hunt_lab(rgb);
-    let largest =
-        Real::powf(hyab(corner([0.0, 1.0, 0.0]), corner([0.0, 0.0, 1.0])), COLOUR_EXPONENT);
+fn differences(image: &Seen, reference: &Seen) -> Vec<f64> {
+    let [green, blue] = [[0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(hunt_lab);
+    let largest = Real::powf(hyab(green, blue), COLOUR_EXPONENT);
     let bend = BEND * largest;
     let remapped = |difference: f64| {
         let power = Real::powf(difference, COLOUR_EXPONENT);
@@ -104,11 +141,11 @@ fn differences(
             BENT + (power - bend) / (largest - bend) * (1.0 - BENT)
         }
     };
-    (0..image.len())
+    (0..image.colours.len())
         .map(|i| {
-            let colour = remapped(hyab(colours[i], reference_colours[i]));
+            let colour = remapped(hyab(image.colours[i], reference.colours[i]));
             let [edge, point] =
-                [0, 1].map(|kind| (features[kind][i] - reference_features[kind][i]).abs());
+                [0, 1].map(|kind| (image.features[kind][i] - reference.features[kind][i]).abs());
             let feature = edge.max(point) * core::f64::consts::FRAC_1_SQRT_2;
             Real::powf(colour, 1.0 - Real::powf(feature, FEATURE_EXPONENT))
         })

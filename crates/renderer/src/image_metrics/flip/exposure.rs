@@ -1,6 +1,6 @@
 //! Exposures at which a picture of radiance is looked at.
 
-use etendue_math::{Real, Spectrum};
+use etendue_math::Real;
 
 use crate::Image;
 
@@ -52,6 +52,7 @@ fn bright() -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use etendue_math::Spectrum;
     use etendue_scene::Color;
 
     #[test]

@@ -151,7 +151,9 @@ fn gaussian(radius: i32, falloff: f64) -> Vec<f64> {
 
 fn normalised(mut kernel: Vec<f64>) -> Vec<f64> {
     let sum: f64 = kernel.iter().sum();
-    kernel.iter_mut().for_each(|weight| *weight /= sum);
+    for weight in &mut kernel {
+        *weight /= sum;
+    }
     kernel
 }
 

@@ -76,7 +76,8 @@ fn equal_pictures_do_not_differ_and_black_differs_from_white_by_all() {
     let all = mean(&ldr(&black, &white).expect("equal sizes"));
     // By the map of colour differences: lightness differs by 100, green from blue by more.
     assert!((0.95..=1.0).contains(&all), "{all}");
-    let nothing = Image::from_pixels([1, 1], vec![Color::new(f32::NAN, 0.0, 0.0)]).expect("a pixel");
+    let nothing =
+        Image::from_pixels([1, 1], vec![Color::new(f32::NAN, 0.0, 0.0)]).expect("a pixel");
     assert!(mean(&hdr(&nothing, &nothing).expect("equal sizes")).is_finite());
     assert!(ldr(&black, &nothing).is_err());
 }
