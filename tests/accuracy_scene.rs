@@ -137,3 +137,50 @@ fn an_odd_number_of_replications_is_refused() {
     assert_eq!(outcome.exit, Some(2));
     assert!(outcome.stderr.contains("even number"), "{}", outcome.stderr);
 }
+
+#[cfg(unix)]
+#[test]
+fn an_interrupted_experiment_keeps_what_is_finished() {
+    use core::time::Duration;
+    use std::process::{Command, Stdio};
+    use std::thread::sleep;
+
+    let folder = Folder::new();
+    folder.write("scene.xml", SCENE);
+    // Hours, if nobody interrupted it.
+    let arguments = [
+        "accuracy",
+        "scene",
+        "scene.xml",
+        "--quiet",
+        "--size",
+        "16x16",
+        "--spp-max",
+        "1048576",
+        "--reference-spp",
+        "1",
+        "--threads",
+        "1",
+        "--checkpoint",
+        "kept",
+    ];
+    let mut command = folder.command(&arguments);
+    let mut child =
+        command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("the command starts");
+    let records = || {
+        let text = fs::read_to_string(folder.path("kept/experiment.json")).unwrap_or_default();
+        let state: Value = serde_json::from_str(&text).unwrap_or_default();
+        state["records"].as_array().map_or(0, Vec::len)
+    };
+    while records() == 0 {
+        assert_eq!(child.try_wait().expect("a child of this process"), None, "it ends by itself");
+        sleep(Duration::from_millis(10));
+    }
+    let id = child.id().to_string();
+    let sent = Command::new("kill").args(["-INT", &id]).status().expect("kill exists");
+    assert!(sent.success());
+    let outcome: Outcome = child.wait_with_output().expect("the command ends").into();
+    assert_eq!(outcome.exit, Some(130), "{}", outcome.stderr);
+    assert!(outcome.stderr.contains("goes on from what kept holds"), "{}", outcome.stderr);
+    assert!(records() > 0);
+}
