@@ -13,4 +13,6 @@
     reason = "for programs on hosts with an operating system"
 )]
 
+pub mod samplers;
+pub mod scene;
 pub mod timing;

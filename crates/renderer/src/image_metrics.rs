@@ -1,5 +1,7 @@
 //! How far one picture is from another.
 
+pub mod flip;
+
 use etendue_math::Spectrum;
 use etendue_scene::Color;
 

@@ -31,6 +31,17 @@ pub trait Specimen {
         parameters: &mut impl Parameters,
         visitor: V,
     ) -> Result<V::Output, ParameterError>;
+
+    /// The facets that its reflection comes from, where the model has such: what ways of drawing facet normals are tried
+    /// on. Those of a model of several parts are the facets of one of them.
+    ///
+    /// # Errors
+    /// [`ParameterError`] where a width is refused.
+    fn facets<T: Real>(
+        _parameters: &mut impl Parameters,
+    ) -> Result<Option<Microfacets<T>>, ParameterError> {
+        Ok(None)
+    }
 }
 
 /// What is done with one model.
@@ -48,9 +59,9 @@ pub trait Each {
     fn each<S: Specimen>(&mut self);
 }
 
-/// A specimen per line: type, name, and the model as an expression of parameters `p` and colour `C`.
+/// A specimen per line: type, name, the model as an expression of parameters `p` and colour `C`, and its facets.
 macro_rules! models {
-    ($($kind:ident $name:literal |$p:ident| $model:expr;)*) => {
+    ($($kind:ident $name:literal |$p:ident| $model:expr $(, $facets:ident)?;)*) => {
         /// The specimens as types.
         pub mod specimen {
             $(#[doc = concat!("`", $name, "`")]
@@ -68,6 +79,12 @@ macro_rules! models {
             ) -> Result<V::Output, ParameterError> {
                 Ok(visitor.visit(&$model))
             }
+
+            $(fn facets<T: Real>(
+                parameters: &mut impl Parameters,
+            ) -> Result<Option<Microfacets<T>>, ParameterError> {
+                $facets(parameters).map(Some)
+            })?
         })*
 
         /// Shows every specimen to `each`, in the order of the names.
@@ -82,20 +99,20 @@ macro_rules! models {
 
 models! {
     AbsorbingSlab "absorbing-slab" |p| AbsorbingSlab::new(ior(p)?, OpticalDepth::new(C::splat(p.number(0.5)))?);
-    AnyCoupled "any-coupled" |p| AnyCoupled::new(CoupledInterface::schlick(reflectance::<C>(p, 0.04)?), distribution(p), [number(p, 0.25), number(p, 0.4)], masking(p), reflectance(p, 0.6)?)?;
+    AnyCoupled "any-coupled" |p| AnyCoupled::new(CoupledInterface::schlick(reflectance::<C>(p, 0.04)?), distribution(p), [number(p, 0.25), number(p, 0.4)], masking(p), reflectance(p, 0.6)?)?, wide_facets;
     AnyPlastic "any-plastic" |p| AnyPlastic::new(&PlasticSurface::new(ior(p)?, distribution(p), number(p, 0.0), masking(p), internal(p))?, reflectance::<C>(p, 0.5)?, scattering(p));
     AshikhminShirley "ashikhmin-shirley" |p| AshikhminShirley::new(exponent(p, 100.0)?, exponent(p, 10.0)?, reflectance::<C>(p, 0.2)?, reflectance(p, 0.6)?).with_sampling(p.choice([AshikhminShirleySampling::Mixture, AshikhminShirleySampling::Specular]));
     AshikhminShirleyDiffuse "ashikhmin-shirley-diffuse" |p| AshikhminShirleyDiffuse::new(reflectance::<C>(p, 0.2)?, reflectance(p, 0.6)?);
     AshikhminShirleySpecular "ashikhmin-shirley-specular" |p| AshikhminShirleySpecular::new(exponent(p, 100.0)?, exponent(p, 10.0)?, reflectance::<C>(p, 0.2)?);
-    Blend "blend" |p| Blend::new(Lambert::new(reflectance::<C>(p, 0.6)?), RoughConductor::new(metal(p)?, facets(p)?), Opacity::new(number(p, 0.5))?);
+    Blend "blend" |p| Blend::new(Lambert::new(reflectance::<C>(p, 0.6)?), RoughConductor::new(metal(p)?, facets(p)?), Opacity::new(number(p, 0.5))?), facets;
     Burley "burley" |p| Burley::new(reflectance::<C>(p, 0.6)?, roughness(p)?);
-    Conductor "conductor" |p| Conductor::new(metal(p)?, distribution(p), [number(p, 0.25), number(p, 0.4)], masking(p))?;
+    Conductor "conductor" |p| Conductor::new(metal(p)?, distribution(p), [number(p, 0.25), number(p, 0.4)], masking(p))?, wide_facets;
     Coupled "coupled" |p| Coupled::new(CoupledInterface::schlick(reflectance::<C>(p, 0.04)?), reflectance(p, 0.6)?);
     Dielectric "dielectric" |p| Dielectric::<C>::new(ior(p)?, distribution(p), [number(p, 0.25), number(p, 0.4)], masking(p))?;
     DiffuseTransmitter "diffuse-transmitter" |p| DiffuseTransmitter::new(reflectance::<C>(p, 0.4)?, reflectance(p, 0.3)?)?;
     Eon "eon" |p| Eon::new(reflectance::<C>(p, 0.6)?, roughness(p)?).with_sampling(p.choice([EonSampling::Cosine, EonSampling::Cltc]));
     EonApproximate "eon-approx" |p| Eon::new(reflectance::<C>(p, 0.6)?, roughness(p)?).with_albedo(EonAlbedo::Approximate).with_sampling(p.choice([EonSampling::Cltc, EonSampling::Cosine]));
-    KullaContyConductor "kulla-conty-conductor" |p| KullaContyConductor::new(metal::<C>(p)?, round_facets(p)?)?;
+    KullaContyConductor "kulla-conty-conductor" |p| KullaContyConductor::new(metal::<C>(p)?, round_facets(p)?)?, round_facets;
     KullaContyDielectric "kulla-conty-dielectric" |p| KullaContyDielectric::<C>::new(ior(p)?, round_facets(p)?)?;
     Lambert "lambert" |p| Lambert::new(reflectance::<C>(p, 0.6)?);
     LayeredFresnel "layered-fresnel" |p| LayeredFresnel::new(reflectance::<C>(p, 0.04)?, reflectance(p, 0.6)?);
@@ -110,17 +127,17 @@ models! {
     Plastic "plastic" |p| Plastic::new(PlasticInterface::new(ior(p)?, internal(p)), reflectance::<C>(p, 0.6)?, scattering(p));
     Principled "principled" |p| Principled::new(principled::<C>(p))?;
     PrincipledThin "principled-thin" |p| PrincipledThin::new(principled_thin::<C>(p))?;
-    RoughConductor "rough-conductor" |p| RoughConductor::new(metal::<C>(p)?, facets(p)?);
-    RoughConductorBeckmann "rough-conductor/beckmann" |p| RoughConductor::new(metal::<C>(p)?, beckmann_facets(p)?);
-    RoughCoupled "rough-coupled" |p| RoughCoupled::new(CoupledInterface::schlick(reflectance::<C>(p, 0.04)?), facets(p)?, reflectance(p, 0.6)?);
+    RoughConductor "rough-conductor" |p| RoughConductor::new(metal::<C>(p)?, facets(p)?), facets;
+    RoughConductorBeckmann "rough-conductor/beckmann" |p| RoughConductor::new(metal::<C>(p)?, beckmann_facets(p)?), beckmann_facets;
+    RoughCoupled "rough-coupled" |p| RoughCoupled::new(CoupledInterface::schlick(reflectance::<C>(p, 0.04)?), facets(p)?, reflectance(p, 0.6)?), facets;
     RoughDielectric "rough-dielectric" |p| RoughDielectric::<C>::new(ior(p)?, facets(p)?)?;
     RoughDielectricBeckmann "rough-dielectric/beckmann" |p| RoughDielectric::<C>::new(ior(p)?, beckmann_facets(p)?)?;
-    RoughPlastic "rough-plastic" |p| RoughPlastic::new(&TransmittanceTable::new(ior(p)?, distribution(p), alpha(p, 0.3)?, masking(p), internal(p)), reflectance::<C>(p, 0.6)?, scattering(p));
+    RoughPlastic "rough-plastic" |p| RoughPlastic::new(&TransmittanceTable::new(ior(p)?, distribution(p), alpha(p, 0.3)?, masking(p), internal(p)), reflectance::<C>(p, 0.6)?, scattering(p)), round_facets;
     SmoothConductor "smooth-conductor" |p| SmoothConductor::new(metal::<C>(p)?);
     SmoothDielectric "smooth-dielectric" |p| SmoothDielectric::<C>::new(ior(p)?);
     ThinDielectric "thin-dielectric" |p| ThinDielectric::<C>::new(ior(p)?);
-    TurquinConductor "turquin-conductor" |p| TurquinConductor::new(metal::<C>(p)?, round_facets(p)?)?;
-    TwoSided "two-sided" |p| TwoSided::new(RoughConductor::new(metal::<C>(p)?, facets(p)?), Lambert::new(reflectance(p, 0.6)?));
+    TurquinConductor "turquin-conductor" |p| TurquinConductor::new(metal::<C>(p)?, round_facets(p)?)?, round_facets;
+    TwoSided "two-sided" |p| TwoSided::new(RoughConductor::new(metal::<C>(p)?, facets(p)?), Lambert::new(reflectance(p, 0.6)?)), facets;
 }
 
 fn number<T: Real>(p: &mut impl Parameters, typical: f64) -> T {
@@ -168,6 +185,10 @@ fn masking(p: &mut impl Parameters) -> Masking {
 
 fn facets<T: Real>(p: &mut impl Parameters) -> Result<Microfacets<T>, ParameterError> {
     Ok(Microfacets::new(distribution(p), alpha(p, 0.3)?, alpha(p, 0.2)?, masking(p)))
+}
+
+fn wide_facets<T: Real>(p: &mut impl Parameters) -> Result<Microfacets<T>, ParameterError> {
+    Ok(Microfacets::new(distribution(p), alpha(p, 0.25)?, alpha(p, 0.4)?, masking(p)))
 }
 
 fn beckmann_facets<T: Real>(p: &mut impl Parameters) -> Result<Microfacets<T>, ParameterError> {

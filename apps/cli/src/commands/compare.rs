@@ -76,7 +76,7 @@ fn as_json(comparison: &Comparison) -> serde_json::Value {
 }
 
 /// Reads a picture as linear RGB: grey is spread over the channels, alpha dropped.
-fn read(path: &Path) -> Result<Image, Failure> {
+pub(crate) fn read(path: &Path) -> Result<Image, Failure> {
     let loaded = load_image(path, load::Encoding::Srgb)?;
     let pixels = loaded.data().chunks_exact(loaded.channels()).map(|pixel| match *pixel {
         [r, g, b, ..] => Color::new(r, g, b),

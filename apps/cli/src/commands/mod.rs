@@ -1,7 +1,9 @@
 //! The subcommands.
 
+pub(crate) mod accuracy;
 pub(crate) mod brdf;
 pub(crate) mod compare;
 pub(crate) mod info;
 pub(crate) mod render;
 mod scene_arguments;
+mod values;

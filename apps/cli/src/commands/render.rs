@@ -3,7 +3,6 @@
 mod draw;
 mod report;
 mod task;
-mod values;
 
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
@@ -13,6 +12,7 @@ use etendue_scene::film::Crop;
 use etendue_scene::{LoadOptions, SamplerKind};
 
 use super::scene_arguments::{SceneArguments, load};
+use super::values::{crop, duration, exposure, max_depth, relative_error, size};
 use crate::failure::{Exit, Failure};
 use crate::interrupt::Interrupt;
 use crate::output::{Aov, Encoding, Output, Precision};
@@ -20,7 +20,6 @@ use crate::progress::Quiet;
 use draw::draw;
 use report::Report;
 use task::Task;
-use values::{crop, duration, exposure, max_depth, relative_error, size};
 
 /// Renders a scene to a picture.
 #[derive(Debug, clap::Args)]

@@ -1,4 +1,4 @@
-//! Values of the arguments of `etendue render`.
+//! Values of arguments: sizes, durations, errors and the like.
 
 use std::time::Duration;
 
@@ -10,27 +10,27 @@ fn numbers<const N: usize>(text: &str, separator: char) -> Option<[u32; N]> {
     parsed.try_into().ok()
 }
 
-pub(super) fn size(text: &str) -> Result<[u32; 2], String> {
+pub(crate) fn size(text: &str) -> Result<[u32; 2], String> {
     match numbers(text, 'x') {
         Some(size) if !size.contains(&0) => Ok(size),
         _ => Err("expected WIDTHxHEIGHT, as in 640x480, both at least 1".to_owned()),
     }
 }
 
-pub(super) fn crop(text: &str) -> Result<Crop, String> {
+pub(crate) fn crop(text: &str) -> Result<Crop, String> {
     let [x, y, w, h] =
         numbers(text, ',').ok_or("expected four numbers: left, top, width, height")?;
     Ok(Crop { offset: [x, y], size: [w, h] })
 }
 
-pub(super) fn max_depth(text: &str) -> Result<i64, String> {
+pub(crate) fn max_depth(text: &str) -> Result<i64, String> {
     match text.parse() {
         Ok(depth) if (-1..=i64::from(u32::MAX)).contains(&depth) => Ok(depth),
         _ => Err("expected a number of edges, or -1 for no limit".to_owned()),
     }
 }
 
-pub(super) fn exposure(text: &str) -> Result<f32, String> {
+pub(crate) fn exposure(text: &str) -> Result<f32, String> {
     match text.parse::<f32>() {
         Ok(stops) if stops.abs() <= 64.0 => Ok(stops),
         _ => Err("expected a number of stops between -64 and 64".to_owned()),
@@ -41,7 +41,7 @@ pub(super) fn exposure(text: &str) -> Result<f32, String> {
 const UNITS: [(&str, f64); 4] = [("ms", 1e-3), ("min", 60.0), ("h", 3600.0), ("s", 1.0)];
 
 /// A time with its unit, up to a year.
-pub(super) fn duration(text: &str) -> Result<Duration, String> {
+pub(crate) fn duration(text: &str) -> Result<Duration, String> {
     let with_unit = UNITS.iter().find_map(|(unit, seconds)| {
         let number: f64 = text.strip_suffix(unit)?.trim_end().parse().ok()?;
         Some(number * seconds)
@@ -55,7 +55,7 @@ pub(super) fn duration(text: &str) -> Result<Duration, String> {
 }
 
 /// A relative error, as a fraction or in percent.
-pub(super) fn relative_error(text: &str) -> Result<f64, String> {
+pub(crate) fn relative_error(text: &str) -> Result<f64, String> {
     let (number, unit) = match text.strip_suffix('%') {
         Some(percent) => (percent.trim_end(), 0.01),
         None => (text, 1.0),
