@@ -20,7 +20,7 @@ mod memory;
 mod output;
 mod progress;
 
-use commands::{brdf, compare, info, render};
+use commands::{accuracy, brdf, compare, info, render};
 use failure::{Exit, Failure};
 
 /// Renders Mitsuba scenes and bare meshes, exactly and fast.
@@ -37,6 +37,7 @@ enum Command {
     Info(info::Arguments),
     Compare(compare::Arguments),
     Brdf(brdf::Arguments),
+    Accuracy(accuracy::Arguments),
 }
 
 const EXIT_CODES: &str = "Exit codes: 0 done, 1 internal error, 2 usage, 3 scene, 4 input or output, \
@@ -50,6 +51,7 @@ fn main() -> ExitCode {
         Command::Info(arguments) => info::run(arguments),
         Command::Compare(arguments) => compare::run(arguments),
         Command::Brdf(arguments) => brdf::run(arguments),
+        Command::Accuracy(arguments) => accuracy::run(arguments),
     })
     .unwrap_or_else(|_| Err(internal_error()));
     match outcome {

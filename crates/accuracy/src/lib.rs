@@ -6,6 +6,8 @@
 //!
 //! Errors are the same in every run. Times are not, so they are taken interleaved and given as ratios
 //! ([`timing`]).
+//!
+//! - [`functions`]: formulas that can be evaluated in more than one way.
 #![forbid(unsafe_code)]
 #![allow(
     clippy::std_instead_of_alloc,
@@ -13,4 +15,5 @@
     reason = "for programs on hosts with an operating system"
 )]
 
+pub mod functions;
 pub mod timing;

@@ -1,5 +1,6 @@
 //! The subcommands.
 
+pub(crate) mod accuracy;
 pub(crate) mod brdf;
 pub(crate) mod compare;
 pub(crate) mod info;

@@ -52,7 +52,11 @@ impl ReportArguments {
             csv: check(&self.csv)?,
             svg: check(&self.svg)?,
             html: check(&self.html)?,
-            markdown: self.markdown.as_deref().map(|path| Document::open(path, part)).transpose()?,
+            markdown: self
+                .markdown
+                .as_deref()
+                .map(|path| Document::open(path, part))
+                .transpose()?,
         })
     }
 }
