@@ -2,7 +2,7 @@
 
 /// A set of points, the same in every run, and the sums over points that are energies.
 ///
-/// Points are numbers of `f32`, so that variants in either precision are given the same ones: what differs is how they
+/// Scalars are numbers of `f32`, so that variants in either precision are given the same ones: what differs is how they
 /// compute, not what they are told.
 pub struct Domain<P> {
     /// The domain in words.

@@ -7,6 +7,10 @@ use etendue_math::{Real, Spectrum};
 
 use super::domain::Domain;
 
+/// A precision that is also a colour of one channel.
+pub(super) trait Scalar: Real + Spectrum<Real = Self> {}
+impl<T: Real + Spectrum<Real = T>> Scalar for T {}
+
 /// The width of the numbers a variant computes with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Precision {

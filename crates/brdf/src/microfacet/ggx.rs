@@ -91,6 +91,32 @@ pub fn visibility_hammon<T: Real>(cos_o: T, cos_i: T, alpha: T) -> T {
     if area > T::ZERO { (T::ONE / area).min(T::MAX) } else { T::ZERO }
 }
 
+/// A rational fit of the separable visibility `G1(wo) G1(wi) / (4 cos θo cos θi)`, without roots; isotropic. **For
+/// comparison only**: use [`Microfacets::visibility`](super::Microfacets::visibility).
+///
+/// ```text
+/// V ≈ 1 / (4 (co (1 − k) + k) (ci (1 − k) + k)),  k = α/2
+/// ```
+///
+/// It is the separable form with [`projected_area`] interpolated linearly in α between its values at 0 and 1, hence exact there
+/// and at normal incidence, and never above the exact value. [`visibility_hammon`] does the same to the height-correlated form.
+///
+/// * `cos_o`, `cos_i`: cosines in `[0, 1]`; `alpha` in `[0, 1]`. 0 where a cosine and α vanish.
+///
+/// # Precision
+/// Against the separable form too dark by at most 36 % (a factor 0.8²), where both cosines are about ¾ α and α is small.
+///
+/// # Source
+/// C. Schlick, "An Inexpensive BRDF Model for Physically-based Rendering", Eurographics 1994, eq. 19, with the k of
+/// B. Karis, "Real Shading in Unreal Engine 4", SIGGRAPH 2013 course.
+#[inline]
+pub fn visibility_schlick<T: Real>(cos_o: T, cos_i: T, alpha: T) -> T {
+    let k = T::HALF * alpha;
+    let area = |cos: T| cos * (T::ONE - k) + k;
+    let area = T::lit(4.0) * area(cos_o) * area(cos_i);
+    if area > T::ZERO { (T::ONE / area).min(T::MAX) } else { T::ZERO }
+}
+
 /// A facet normal, seen or not, with density `D(h) hz`.
 ///
 /// ```text

@@ -6,12 +6,11 @@ use etendue_brdf::fresnel::{
     dielectric, dielectric_textbook, f0_from_ior, schlick, schlick_gaussian, schlick_powf,
 };
 use etendue_math::quadrature::gauss_legendre;
-use etendue_math::{Real, Spectrum};
 
 use crate::functions::domain::{Domain, Probe, linear, logarithmic, narrow};
 use crate::functions::family::{ErrorKind, FamilyInfo, Setup};
 use crate::functions::reference::{DoubleDouble, Effort, Reference};
-use crate::functions::variant::Variant;
+use crate::functions::variant::{Scalar, Variant};
 
 /// Glass, water, plastics, gems.
 pub(super) const USUAL: FamilyInfo = FamilyInfo {
@@ -23,6 +22,7 @@ pub(super) const USUAL: FamilyInfo = FamilyInfo {
             effort,
             "η from 1.2 to 3, seen from the thinner side; cos θ from 0.01 to 1",
             linear([1.2, 3.0], count).collect(),
+            Schlick::Yes,
             vec![
                 "Schlick's polynomial is an approximation of another function than rounding is: in single and in double \
                  precision its error is the same, orders of magnitude above that of the equations themselves. What the \
@@ -46,13 +46,13 @@ pub(super) const MATCHED: FamilyInfo = FamilyInfo {
             effort,
             "η − 1 from 1e-6 to 0.1, by its logarithm, seen from the thinner side; cos θ from 0.01 to 1",
             logarithmic([1e-6, 0.1], count).map(|excess| 1.0 + excess).collect(),
+            Schlick::No,
             vec![
                 "Water in ice, glass in oil, the layers of a coating: the reflectance is the square of a small number, \
                  and the textbook form takes it from a difference of numbers near 1.",
             ],
             "The stable form: the textbook's has no digit left in single precision where the stable one has all, and is no \
-             cheaper. Schlick's polynomial is not meant for these indices: at oblique angles it is off by a multiple of the \
-             value.",
+             cheaper. Schlick's polynomial is not shown: at these indices it is off by orders of magnitude.",
         )
     },
 };
@@ -64,10 +64,18 @@ struct Point {
     eta: f64,
 }
 
+/// Whether Schlick's polynomial is among the variants.
+#[derive(Clone, Copy, PartialEq)]
+enum Schlick {
+    Yes,
+    No,
+}
+
 fn build(
     effort: Effort,
     words: &str,
     indices: Vec<f64>,
+    schlick: Schlick,
     prose: Vec<&'static str>,
     advice: &'static str,
 ) -> Setup {
@@ -99,8 +107,10 @@ fn build(
     let mut all = exact_forms::<f64>(&domain);
     let exact = all.remove(0);
     others.extend(all);
-    others.extend(schlick_forms::<f64>(&domain));
-    others.extend(schlick_forms::<f32>(&domain));
+    if schlick == Schlick::Yes {
+        others.extend(schlick_forms::<f64>(&domain));
+        others.extend(schlick_forms::<f32>(&domain));
+    }
     Setup {
         quantity: "unpolarised reflectance F(cos θ, η)",
         judged_by: ErrorKind::RmsRelative,
@@ -117,7 +127,7 @@ fn build(
 }
 
 /// The stable form and the textbook's.
-fn exact_forms<T: Real + Spectrum<Real = T>>(domain: &Rc<Domain<Point>>) -> Vec<Variant> {
+fn exact_forms<T: Scalar>(domain: &Rc<Domain<Point>>) -> Vec<Variant> {
     let prepare = |p: &Point| [T::lit(p.cos), T::lit(p.eta)];
     vec![
         Variant::new("stable", domain, prepare, |&[c, eta]: &[T; 2]| dielectric(c, eta)),
@@ -126,7 +136,7 @@ fn exact_forms<T: Real + Spectrum<Real = T>>(domain: &Rc<Domain<Point>>) -> Vec<
 }
 
 /// Schlick's polynomial, given the reflectance at normal incidence.
-fn schlick_forms<T: Real + Spectrum<Real = T>>(domain: &Rc<Domain<Point>>) -> Vec<Variant> {
+fn schlick_forms<T: Scalar>(domain: &Rc<Domain<Point>>) -> Vec<Variant> {
     let prepare = |p: &Point| [T::lit(p.cos), f0_from_ior(T::lit(p.eta))];
     vec![
         Variant::new("Schlick by products", domain, prepare, |&[c, f0]: &[T; 2]| schlick(f0, c)),

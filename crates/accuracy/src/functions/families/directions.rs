@@ -5,10 +5,13 @@ use etendue_math::quadrature::gauss_legendre;
 use etendue_math::{Real, Spectrum, Vec3, Vector3};
 use std::rc::Rc;
 
-use crate::functions::domain::{Domain, Probe, narrow};
+use crate::functions::domain::{Domain, Probe};
 use crate::functions::variant::Variant;
 
 /// Viewer and light, and the number of a material.
+///
+/// In `f64`: rounded to `f32`, the directions would not have length 1. Variants in `f32` are given the nearest ones, as they
+/// are in a renderer.
 #[derive(Clone, Copy)]
 pub(super) struct Pair {
     pub(super) case: usize,
@@ -18,7 +21,7 @@ pub(super) struct Pair {
 
 impl Pair {
     pub(super) fn new(case: usize, wo: [f64; 3], wi: [f64; 3]) -> Self {
-        Self { case, wo: wo.map(narrow), wi: wi.map(narrow) }
+        Self { case, wo, wi }
     }
 
     /// Both directions in a precision.

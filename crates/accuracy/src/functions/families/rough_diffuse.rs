@@ -6,14 +6,14 @@ use etendue_brdf::{
     Eon, EonAlbedo, Lambert, OrenNayar, OrenNayarFujii, OrenNayarQualitative, ParameterError,
     Reflectance, Roughness, Sigma,
 };
+use etendue_math::Real;
 use etendue_math::glam::DVec3;
-use etendue_math::{Real, Spectrum};
 
 use super::directions::{Pair, albedo_probe, models, pairs};
 use crate::functions::domain::Domain;
 use crate::functions::family::{ErrorKind, FamilyInfo, Setup};
 use crate::functions::reference::{Effort, Reference, Uncertainty, VCavities};
-use crate::functions::variant::Variant;
+use crate::functions::variant::{Scalar, Variant};
 
 pub(super) const INFO: FamilyInfo =
     FamilyInfo { name: "rough-diffuse", title: "Rough diffuse reflection", build };
@@ -88,11 +88,11 @@ fn checked<M>(model: impl Fn(f64, f64) -> Result<M, ParameterError>) -> Vec<M> {
     MATERIALS.iter().map(model).collect::<Result<_, _>>().expect("materials of this file")
 }
 
-fn white<T: Spectrum<Real = T> + Real>(albedo: f64) -> Result<Reflectance<T>, ParameterError> {
+fn white<T: Scalar>(albedo: f64) -> Result<Reflectance<T>, ParameterError> {
     Reflectance::new(T::lit(albedo))
 }
 
-fn full<T: Real + Spectrum<Real = T>>(domain: &Rc<Domain<Pair>>) -> Variant {
+fn full<T: Scalar>(domain: &Rc<Domain<Pair>>) -> Variant {
     let model = |s, a| Ok(OrenNayar::new(white::<T>(a)?, Sigma::new(T::lit(s))?));
     models("full Oren–Nayar", domain, checked(model))
 }
@@ -104,7 +104,7 @@ fn others(domain: &Rc<Domain<Pair>>) -> Vec<Variant> {
     all
 }
 
-fn cheaper<T: Real + Spectrum<Real = T>>(domain: &Rc<Domain<Pair>>) -> Vec<Variant> {
+fn cheaper<T: Scalar>(domain: &Rc<Domain<Pair>>) -> Vec<Variant> {
     let qualitative = |s, a| Ok(OrenNayarQualitative::new(white::<T>(a)?, Sigma::new(T::lit(s))?));
     let fujii = |s, a| Ok(OrenNayarFujii::new(white::<T>(a)?, Roughness::new(T::lit(s))?));
     let eon = |albedo: EonAlbedo| {

@@ -1,0 +1,172 @@
+//! A matte base under a rough dielectric interface.
+
+use std::rc::Rc;
+
+use etendue_brdf::fresnel::f0_from_ior;
+use etendue_brdf::{
+    Alpha, Bsdf, CoupledInterface, Distribution, InternalReflectance, InternalScattering, Ior,
+    Lambert, Masking, Microfacets, OpticalDepth, Reflectance, RoughCoupled, RoughDielectric,
+    RoughPlastic, StochasticLayers, TransmittanceTable,
+};
+use etendue_math::{Vec3, Vector3};
+use etendue_sampling::{Pcg32, uniform};
+
+use super::directions::{Pair, albedo_probe, direction, models, pairs};
+use super::monte_carlo::{Mean, reference};
+use crate::functions::domain::Domain;
+use crate::functions::family::{ErrorKind, FamilyInfo, Setup};
+use crate::functions::reference::Effort;
+use crate::functions::variant::{Scalar, Variant};
+
+pub(super) const INFO: FamilyInfo =
+    FamilyInfo { name: "layered", title: "A matte base under a rough coat", build };
+
+/// Width of the interface and reflectance of the base.
+const MATERIALS: [(f64, f64); 4] = [(0.15, 0.2), (0.15, 0.8), (0.5, 0.2), (0.5, 0.8)];
+const ETA: f64 = 1.5;
+const POLAR: [f64; 4] = [10.0, 35.0, 60.0, 80.0];
+const AZIMUTHS: [f64; 4] = [0.0, 60.0, 120.0, 180.0];
+const VIEWS: [f64; 3] = [20.0, 50.0, 80.0];
+
+fn material(case: usize) -> String {
+    let (alpha, rho) = MATERIALS[case];
+    format!("α {alpha}, ρ {rho}")
+}
+
+fn build(effort: Effort) -> Setup {
+    let cases = 0..MATERIALS.len();
+    let polar = effort.choose(&POLAR[..], &POLAR[1..3]);
+    let views = effort.choose(&VIEWS[..], &VIEWS[1..2]);
+    let probe = |case| views.iter().map(move |&t| albedo_probe::<64>(case, &material(case), t));
+    let domain = Rc::new(Domain {
+        words: "GGX interface with η 1.5 and α 0.15 and 0.5 over bases of reflectance 0.2 and 0.8; polar angles of viewer and \
+                light 10°, 35°, 60° and 80°, azimuths between them from 0° to 180° in steps of 60°"
+            .to_owned(),
+        points: cases.clone().flat_map(|case| pairs(case, polar, &AZIMUTHS)).collect(),
+        place: |pair: &Pair| format!("{}, {}", material(pair.case), pair.words()),
+        probes: cases.clone().flat_map(probe).collect(),
+    });
+    let compute = {
+        let domain = Rc::clone(&domain);
+        let views: Vec<(usize, f64)> =
+            cases.flat_map(|case| views.iter().map(move |&theta| (case, theta))).collect();
+        move || {
+            let values = domain
+                .points
+                .iter()
+                .enumerate()
+                .map(|(i, pair)| value(pair, i as u64, effort.choose(20_000, 300)));
+            let energies = views.iter().enumerate().map(|(i, &(case, theta))| {
+                albedo(case, theta, i as u64, effort.choose(100_000, 2000))
+            });
+            reference(values.collect(), energies.collect())
+        }
+    };
+    let mut others = forms::<f64>(&domain);
+    let exact = others.remove(0);
+    others.extend(forms::<f32>(&domain));
+    Setup {
+        quantity: "scattering function f(wo, wi) in sr⁻¹",
+        judged_by: ErrorKind::RmsRelative,
+        exact,
+        // Light that the rough interface turns within its lobe is treated as if it went straight through.
+        bound: 0.1,
+        others,
+        ground: Box::new(Rc::clone(&domain)),
+        reference: "light followed bounce by bounce between interface and base (position-free Monte Carlo)",
+        compute: Box::new(compute),
+        prose: vec![
+            "Plastic transmits through a table of the interface and sums the reflections back and forth below it, with the \
+             base's colour at every one, or, linear, as if the base were white. Albedo scaling gives the base what the \
+             interface does not reflect towards the viewer: a look-up, no second direction, and not reciprocal. The coupled \
+             model has Shirley's matte term below the rough lobe.",
+        ],
+        advice: "Plastic with reflections summed at every bounce: it is closest to the light that is followed, at every \
+                 albedo. Linear plastic keeps hues and is wrong for dark bases. The coupled model needs no table and \
+                 conserves energy, but knows neither the inside of the layer nor what it does to colours. Albedo scaling is for \
+                 stacks whose layers are not known beforehand.",
+    }
+}
+
+fn interface<T: Scalar>(case: usize) -> Microfacets<T> {
+    Microfacets::ggx(Alpha::clamped(T::lit(MATERIALS[case].0)))
+}
+
+fn base<T: Scalar>(case: usize) -> Reflectance<T> {
+    Reflectance::clamped(T::lit(MATERIALS[case].1))
+}
+
+fn index<T: Scalar>() -> Ior<T> {
+    Ior::new(T::lit(ETA)).expect("the index of glass")
+}
+
+/// The table of an interface, for as long as the program runs: a model borrows it, and a family is set up once.
+fn table<T: Scalar>(case: usize) -> &'static TransmittanceTable<T> {
+    let alpha = Alpha::clamped(T::lit(MATERIALS[case].0));
+    let (masking, internal) = (Masking::HeightCorrelated, InternalReflectance::Exact);
+    Box::leak(Box::new(TransmittanceTable::new(
+        index(),
+        Distribution::Ggx,
+        alpha,
+        masking,
+        internal,
+    )))
+}
+
+fn forms<T: Scalar>(domain: &Rc<Domain<Pair>>) -> Vec<Variant> {
+    let cases = 0..MATERIALS.len();
+    let tables: Vec<_> = cases.clone().map(table::<T>).collect();
+    let plastic = |scattering| {
+        let model = |case: usize| RoughPlastic::new(tables[case], base::<T>(case), scattering);
+        cases.clone().map(model).collect::<Vec<_>>()
+    };
+    let coupled = |interface_of: CoupledInterface<T>| {
+        let model = |case| RoughCoupled::new(interface_of, interface(case), base(case));
+        cases.clone().map(model).collect::<Vec<_>>()
+    };
+    let exact = CoupledInterface::dielectric(index()).expect("an index above 1");
+    let schlick = CoupledInterface::schlick(Reflectance::clamped(f0_from_ior(T::lit(ETA))));
+    let black = InternalScattering::Linear;
+    let specular: Vec<_> = tables
+        .iter()
+        .map(|table| RoughPlastic::<T>::new(table, Reflectance::clamped(T::ZERO), black))
+        .collect();
+    let matte: Vec<T> = cases.clone().map(|case| base::<T>(case).value() * T::FRAC_1_PI).collect();
+    let scaling = {
+        let tables = tables.clone();
+        move |&(case, [wo, wi]): &(usize, [Vec3<T>; 2])| {
+            specular[case].eval(wo, wi) + matte[case] * tables[case].transmittance(wo.z())
+        }
+    };
+    vec![
+        models("plastic", domain, plastic(InternalScattering::NonLinear)),
+        models("linear plastic", domain, plastic(InternalScattering::Linear)),
+        models("coupled, exact k", domain, coupled(exact)),
+        models("coupled, Schlick's k", domain, coupled(schlick)),
+        Variant::new("albedo scaling", domain, |p: &Pair| (p.case, p.vectors::<T>()), scaling),
+    ]
+}
+
+fn layers(case: usize) -> StochasticLayers<RoughDielectric<f64>, Lambert<f64>> {
+    let glass = RoughDielectric::new(index(), interface(case)).expect("an index that is not 1");
+    StochasticLayers::new(glass, Lambert::new(base(case)), OpticalDepth::clear())
+}
+
+fn value(pair: &Pair, address: u64, samples: u32) -> Mean {
+    let layers = layers(pair.case);
+    let [wo, wi] = pair.vectors::<f64>();
+    Mean::of((0..u64::from(samples)).map(|sample| {
+        let mut rng = Pcg32::new(sample, address);
+        layers.eval(wo, wi, &mut || uniform(&mut rng))
+    }))
+}
+
+fn albedo(case: usize, theta: f64, address: u64, samples: u32) -> Mean {
+    let layers = layers(case);
+    let [x, y, z] = direction(theta, 0.0);
+    let wo = Vec3::<f64>::new(x, y, z);
+    Mean::of((0..u64::from(samples)).map(|sample| {
+        let mut rng = Pcg32::new(sample, address);
+        layers.sample(wo, &mut || uniform(&mut rng)).map_or(0.0, |(_, weight)| weight)
+    }))
+}
