@@ -207,4 +207,24 @@ mod tests {
         }
         assert!(worst_of(1e-4) > 0.29);
     }
+
+    #[test]
+    fn schlicks_fit_is_as_good_as_it_says() {
+        let z = 0.75e-4;
+        let area = projected_area::<f64>(DVec3::new(1.0, 0.0, z), 1e-4, 1e-4);
+        let exact = |o: f64, i: f64| 1.0 / (4.0 * o * i);
+        // Where it is worst; z² beside 1.
+        let ratio = visibility_schlick(z, z, 1e-4) / exact(area, area);
+        assert!((ratio - 0.64).abs() < 1e-3, "{ratio}");
+        for alpha in [0.0, 1e-3, 0.1, 0.5, 1.0] {
+            for i in 1..=100 {
+                let cos = f64::from(i) / 100.0;
+                let w = DVec3::new(((1.0 - cos) * (1.0 + cos)).sqrt(), 0.0, cos);
+                let area = projected_area::<f64>(w, alpha, alpha);
+                let ratio = visibility_schlick(cos, 1.0, alpha) / exact(area, 1.0);
+                // One of the two factors; rounding.
+                assert!(ratio > 0.8 - 1e-12 && ratio < 1.0 + 1e-12, "{alpha} {cos} {ratio}");
+            }
+        }
+    }
 }

@@ -7,7 +7,7 @@ use crate::failure::{Exit, Failure};
 /// The name of the subcommand; not part of the command's interface.
 pub(super) const NAME: &str = "calls";
 
-/// Evaluates one variant of a family at all points, and again. Prints the number of points.
+/// Evaluates one variant of a family at all points, and again. Prints how many evaluations that were.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
     #[arg(long)]
@@ -15,12 +15,33 @@ pub(crate) struct Arguments {
     /// Its number, 0 for the exact one.
     #[arg(long)]
     variant: usize,
+    /// How many evaluations there are at least; all points are evaluated equally often.
     #[arg(long)]
-    passes: usize,
+    evaluations: usize,
+    /// Words of one length: reading them takes equally many instructions.
     #[arg(long)]
-    idle: bool,
+    work: Work,
     #[arg(long)]
     quick: bool,
+}
+
+/// What is repeated.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub(super) enum Work {
+    /// The evaluations.
+    Full,
+    /// The loop without them.
+    Idle,
+}
+
+impl Work {
+    /// As in the arguments.
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            Self::Full => "full",
+            Self::Idle => "idle",
+        }
+    }
 }
 
 pub(crate) fn run(arguments: &Arguments) -> Result<Exit, Failure> {
@@ -32,9 +53,13 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     let variant = variants
         .nth(arguments.variant)
         .ok_or_else(|| Failure::usage(format!("no variant {}", arguments.variant)))?;
-    let evaluations: usize = (0..arguments.passes)
-        .map(|_| if arguments.idle { variant.idle() } else { variant.pass() })
-        .sum();
+    let mut evaluations = 0;
+    while evaluations < arguments.evaluations {
+        evaluations += match arguments.work {
+            Work::Full => variant.pass(),
+            Work::Idle => variant.idle(),
+        };
+    }
     println!("{evaluations}");
     Ok(Exit::Done)
 }

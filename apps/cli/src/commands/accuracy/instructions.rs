@@ -5,7 +5,7 @@ use std::process::Command;
 
 use etendue_accuracy::functions::Effort;
 
-use super::calls;
+use super::calls::{self, Work};
 use crate::failure::{Exit, Failure};
 
 /// This program under valgrind.
@@ -21,8 +21,9 @@ pub(super) struct Request {
     pub(super) effort: Effort,
 }
 
-/// How often all points are evaluated: one pass has a thousand points, and counts are the same every time.
-const PASSES: usize = 2;
+/// Evaluations at least. What else a process does differs by some hundred instructions from run to run: a tenth of one
+/// per evaluation.
+const EVALUATIONS: usize = 4000;
 
 impl Counter {
     /// Nothing where valgrind is not in the path.
@@ -35,19 +36,18 @@ impl Counter {
 
     /// Instructions per evaluation, those of the loop taken off.
     pub(super) fn count(&self, request: &Request) -> Result<f64, Failure> {
-        let (busy, evaluations) = self.run(request, false)?;
-        let (idle, _) = self.run(request, true)?;
+        let (busy, evaluations) = self.run(request, Work::Full)?;
+        let (idle, _) = self.run(request, Work::Idle)?;
         Ok((busy - idle) / evaluations)
     }
 
     /// Instructions of a whole process, and how many evaluations it made.
-    fn run(&self, request: &Request, idle: bool) -> Result<(f64, f64), Failure> {
+    fn run(&self, request: &Request, work: Work) -> Result<(f64, f64), Failure> {
         let mut command = Command::new(&self.valgrind);
         command.args(["--tool=cachegrind", "--cache-sim=no", "--cachegrind-out-file=/dev/null"]);
         command.arg(&self.program).args(["accuracy", calls::NAME, "--family", request.family]);
         command.args(["--variant", &request.variant.to_string()]);
-        command.args(["--passes", &PASSES.to_string()]);
-        command.args(idle.then_some("--idle"));
+        command.args(["--evaluations", &EVALUATIONS.to_string(), "--work", work.name()]);
         command.args((request.effort == Effort::Quick).then_some("--quick"));
         let failed = |reason: &str| failure(&self.valgrind, reason);
         let output = command.output().map_err(|error| failed(&error.to_string()))?;

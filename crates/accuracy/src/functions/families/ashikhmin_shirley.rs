@@ -71,9 +71,7 @@ fn build(effort: Effort) -> Setup {
             "Half vectors are given by their coordinates in the tangent plane, exactly; the third is rounded in the \
              precision of the variant, as it is in a renderer. The stable form computes in double precision in either case.",
         ],
-        advice: "The stable form. The textbook's raises a cosine that has lost its digits: in single precision it is wrong in the \
-                 second digit for exponents of 1e6, and in double precision it loses as many digits, of more. The time that \
-                 it saves is that of a logarithm in double precision.",
+        advice: "The stable form. The textbook's raises a cosine that has lost its digits: with every factor of ten in the exponent it loses another one, in double precision as in single. The time that it saves in single precision is what the stable one spends on computing in double.",
     }
 }
 

@@ -66,7 +66,7 @@ fn dielectric_family(side: Side, effort: Effort, words: &str, advice: &'static s
     };
     let domain = Rc::new(Domain {
         words: words.to_owned(),
-        points: linear([1.1, 3.0], effort.choose(400, 20)).map(index).collect(),
+        points: linear([1.1, 3.0], effort.choose(60, 8)).map(index).collect(),
         place: |eta: &f64| format!("η {eta:.3}"),
         probes: Vec::new(),
     });
@@ -171,9 +171,7 @@ fn conductor_family(effort: Effort) -> Setup {
             "The fit is given reflectivity and edge tint, limited to 1, Schlick's average the reflectance at normal incidence, \
              that of F82 also the one at 82°.",
         ],
-        advice: "Once per material, the quadrature. The average of F82 goes with F82, of which it is the exact integral, and is \
-                 the closest of the cheap ones for real metals as well. The fit by edge tint is for materials that are \
-                 described by it; where metals lie beyond its parametrisation it is the worst choice.",
+        advice: "Once per material, the quadrature. The average of F82 goes with F82, of which it is the exact integral; the fit goes with edge tints, Schlick's average with Schlick's polynomial. As approximations of real metals the first two are as good as each other, and the third is half as good.",
     }
 }
 

@@ -28,10 +28,7 @@ pub(super) const USUAL: FamilyInfo = FamilyInfo {
                  precision its error is the same, orders of magnitude above that of the equations themselves. What the \
                  forms of its fifth power cost, and what the Gaussian saves, shows in the columns of cost.",
             ],
-            "Where a picture should be right, the equations: they cost a root and two quotients more than Schlick's \
-             polynomial. Where that is too much, Schlick's polynomial by products; a general power buys nothing but time \
-             lost, and the Gaussian adds an error of its own. The textbook form is as good as the stable one for these \
-             indices; for indices near 1 see the next table.",
+            "Where a picture should be right, the equations: they cost a root and two quotients more than Schlick's polynomial, which is off by as much as these reflectances differ from each other. Where that is too much, Schlick's polynomial by products: a general power and the Gaussian buy nothing on a processor on which three products cost next to nothing. For these indices the textbook's form is as good as the stable one; for indices near 1 see the next table.",
         )
     },
 };
@@ -51,8 +48,7 @@ pub(super) const MATCHED: FamilyInfo = FamilyInfo {
                 "Water in ice, glass in oil, the layers of a coating: the reflectance is the square of a small number, \
                  and the textbook form takes it from a difference of numbers near 1.",
             ],
-            "The stable form: the textbook's has no digit left in single precision where the stable one has all, and is no \
-             cheaper. Schlick's polynomial is not shown: at these indices it is off by orders of magnitude.",
+            "The stable form: the textbook's takes less time, but keeps only the first digits in single precision and half of them in double. Schlick's polynomial is left out: for these indices it is off by orders of magnitude.",
         )
     },
 };

@@ -137,9 +137,7 @@ fn setup(
         reference: "series in arithmetic of 106 bits",
         compute: Box::new(compute),
         prose: vec!["Each is called through a pointer, which costs all of them the same."],
-        advice: "Both backends are within an ulp; they differ in speed and in what they promise. `std`, the platform's, where \
-                 time counts. `libm` where the bits of a picture must be the same on every processor, or where there is no \
-                 platform.",
+        advice: "Both backends are within an ulp; they differ in what they promise, and in speed, for the most part in favour of `std`. `std`, the platform's, where time counts. `libm` where the bits of a picture must be the same on every processor, or where there is no platform.",
     }
 }
 

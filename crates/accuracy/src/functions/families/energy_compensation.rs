@@ -65,7 +65,7 @@ fn build(effort: Effort) -> Setup {
                 .points
                 .iter()
                 .enumerate()
-                .map(|(i, pair)| value(pair, i as u64, effort.choose(8192, 128)));
+                .map(|(i, pair)| value(pair, i as u64, effort.choose(32_768, 128)));
             let energies = views.iter().enumerate().map(|(i, &(case, theta))| {
                 albedo(case, theta, i as u64, effort.choose(60_000, 1000))
             });
@@ -90,10 +90,7 @@ fn build(effort: Effort) -> Setup {
             "None is single scattering, the rough conductor by itself. The other two add what it loses: Turquin's by scaling the \
              lobe, Kulla and Conty's by a second, diffuse one.",
         ],
-        advice: "Nothing for α below some 0.3, where little is lost. Beyond, Kulla and Conty's lobe in a path tracer that relies \
-                 on reciprocity; it is closest to the walk in energy and in shape. Turquin's scaling costs one look-up \
-                 instead of two and no second sampling strategy, but is not reciprocal. A random walk where its noise can be \
-                 paid for: all of these are approximations of it.",
+        advice: "Nothing where facets are smooth or dark, for little is lost there. Else Kulla and Conty's lobe: it is closest to the walk in energy and in shape, and reciprocal. Turquin's scaling costs about as much per evaluation and needs no second way of sampling, but is not reciprocal, and brightens the lobe instead of its surroundings. A random walk where its noise can be paid for: all of these are approximations of it.",
     }
 }
 
