@@ -10,6 +10,10 @@
 //! - [`functions`]: formulas that can be evaluated in more than one way.
 #![forbid(unsafe_code)]
 #![allow(
+    clippy::neg_cmp_op_on_partial_ord,
+    reason = "`!(x > 0)` is how NaN is refused along with what is not positive"
+)]
+#![allow(
     clippy::std_instead_of_alloc,
     clippy::std_instead_of_core,
     reason = "for programs on hosts with an operating system"

@@ -1,5 +1,7 @@
 //! Families of functions hold what they state.
 
+#![allow(clippy::std_instead_of_alloc, reason = "for hosts with an operating system")]
+
 use std::collections::HashSet;
 use std::rc::Rc;
 

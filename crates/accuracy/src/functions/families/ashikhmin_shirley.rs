@@ -71,7 +71,9 @@ fn build(effort: Effort) -> Setup {
             "Half vectors are given by their coordinates in the tangent plane, exactly; the third is rounded in the \
              precision of the variant, as it is in a renderer. The stable form computes in double precision in either case.",
         ],
-        advice: "The stable form. The textbook's raises a cosine that has lost its digits: with every factor of ten in the exponent it loses another one, in double precision as in single. The time that it saves in single precision is what the stable one spends on computing in double.",
+        advice: "The stable form. The textbook's raises a cosine that has lost its digits: with every factor of ten in \
+                 the exponent it loses another one, in double precision as in single. The time that it saves in single \
+                 precision is what the stable one spends on computing in double.",
     }
 }
 

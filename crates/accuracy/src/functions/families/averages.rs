@@ -171,7 +171,9 @@ fn conductor_family(effort: Effort) -> Setup {
             "The fit is given reflectivity and edge tint, limited to 1, Schlick's average the reflectance at normal incidence, \
              that of F82 also the one at 82°.",
         ],
-        advice: "Once per material, the quadrature. The average of F82 goes with F82, of which it is the exact integral; the fit goes with edge tints, Schlick's average with Schlick's polynomial. As approximations of real metals the first two are as good as each other, and the third is half as good.",
+        advice: "Once per material, the quadrature. The average of F82 goes with F82, of which it is the exact \
+                 integral; the fit goes with edge tints, Schlick's average with Schlick's polynomial. As \
+                 approximations of real metals the first two are as good as each other, and the third is half as good.",
     }
 }
 

@@ -59,7 +59,9 @@ fn build(effort: Effort) -> Setup {
              the fifth power by `powf`; the stable one takes the square of that angle's cosine from the length of the sum \
              of the directions. Lambert's reflector is what one would use if the effect were not wanted.",
         ],
-        advice: "The stable form: it has no root, no general power and no half vector to normalise, and is as exact. Lambert's reflector where the retro-reflection of rough surfaces does not matter; no cheaper form of this model stands between the two. The model itself gains energy when rough: where that matters, EON.",
+        advice: "The stable form: it has no root, no general power and no half vector to normalise, and is as exact. \
+                 Lambert's reflector where the retro-reflection of rough surfaces does not matter; no cheaper form of \
+                 this model stands between the two. The model itself gains energy when rough: where that matters, EON.",
     }
 }
 

@@ -67,7 +67,11 @@ fn build(effort: Effort) -> Setup {
              is the exact one, of an index that is computed from reflectivity and edge tint at every evaluation; where η is \
              smaller than its parametrisation reaches, the tint is limited to 1.",
         ],
-        advice: "A metal that is known by its index: the exact form; the textbook's saves time and loses a digit for good mirrors, and more for dielectrics, which are conductors as well. A metal that is known by its colours: F82, which costs hardly more than Schlick's polynomial and keeps the dip before grazing that metals have and Schlick's polynomial lacks. Reflectivity and edge tint are for people who choose colours: convert them to an index once per material, not at every evaluation.",
+        advice: "A metal that is known by its index: the exact form; the textbook's saves time and loses a digit for \
+                 good mirrors, and more for dielectrics, which are conductors as well. A metal that is known by its \
+                 colours: F82, which costs hardly more than Schlick's polynomial and keeps the dip before grazing that \
+                 metals have and Schlick's polynomial lacks. Reflectivity and edge tint are for people who choose \
+                 colours: convert them to an index once per material, not at every evaluation.",
     }
 }
 

@@ -21,14 +21,17 @@ pub(super) const USUAL: FamilyInfo = FamilyInfo {
         build(
             effort,
             "η from 1.2 to 3, seen from the thinner side; cos θ from 0.01 to 1",
-            linear([1.2, 3.0], count).collect(),
+            &linear([1.2, 3.0], count).collect::<Vec<_>>(),
             Schlick::Yes,
             vec![
-                "Schlick's polynomial is an approximation of another function than rounding is: in single and in double \
-                 precision its error is the same, orders of magnitude above that of the equations themselves. What the \
-                 forms of its fifth power cost, and what the Gaussian saves, shows in the columns of cost.",
+                "Schlick's polynomial is another function, not a rounding of this one: in single and in double precision its error is \
+                 the same, orders of magnitude above that of the equations. Its three forms differ in cost, and the Gaussian \
+                 a little in value.",
             ],
-            "Where a picture should be right, the equations: they cost a root and two quotients more than Schlick's polynomial, which is off by as much as these reflectances differ from each other. Where that is too much, Schlick's polynomial by products: a general power and the Gaussian buy nothing on a processor on which three products cost next to nothing. For these indices the textbook's form is as good as the stable one; for indices near 1 see the next table.",
+            "Where a picture should be right, the equations: at oblique angles Schlick's polynomial errs by a good part of the \
+             value, most for small indices. Where a root and two quotients are too much, Schlick's polynomial by products: a \
+             general power and the Gaussian buy nothing on a processor on which three products cost next to nothing. For these \
+             indices the textbook's form is as good as the stable one; for indices near 1 see the next table.",
         )
     },
 };
@@ -42,13 +45,15 @@ pub(super) const MATCHED: FamilyInfo = FamilyInfo {
         build(
             effort,
             "η − 1 from 1e-6 to 0.1, by its logarithm, seen from the thinner side; cos θ from 0.01 to 1",
-            logarithmic([1e-6, 0.1], count).map(|excess| 1.0 + excess).collect(),
+            &logarithmic([1e-6, 0.1], count).map(|excess| 1.0 + excess).collect::<Vec<_>>(),
             Schlick::No,
             vec![
                 "Water in ice, glass in oil, the layers of a coating: the reflectance is the square of a small number, \
                  and the textbook form takes it from a difference of numbers near 1.",
             ],
-            "The stable form: the textbook's takes less time, but keeps only the first digits in single precision and half of them in double. Schlick's polynomial is left out: for these indices it is off by orders of magnitude.",
+            "The stable form: the textbook's takes less time, but keeps only the first digits in single precision and \
+             half of them in double. Schlick's polynomial is left out: for these indices it is off by orders of \
+             magnitude.",
         )
     },
 };
@@ -70,7 +75,7 @@ enum Schlick {
 fn build(
     effort: Effort,
     words: &str,
-    indices: Vec<f64>,
+    indices: &[f64],
     schlick: Schlick,
     prose: Vec<&'static str>,
     advice: &'static str,

@@ -11,8 +11,8 @@ pub(super) const SIN: FamilyInfo = FamilyInfo {
     name: "float-sin",
     title: "Float backends: sine",
     build: |effort| {
-        let points = linear([0.01, 6.28], effort.choose(1000, 50)).map(|x| [x, 0.0]);
-        let words = "x from 0.01 to 6.28";
+        let points = linear([0.01, 6.25], effort.choose(1000, 50)).map(|x| [x, 0.0]);
+        let words = "x from 0.01 to 6.25";
         setup(words, points.collect(), backends::SIN, |[x, _]| x.sin())
     },
 };
@@ -137,7 +137,9 @@ fn setup(
         reference: "series in arithmetic of 106 bits",
         compute: Box::new(compute),
         prose: vec!["Each is called through a pointer, which costs all of them the same."],
-        advice: "Both backends are within an ulp; they differ in what they promise, and in speed, for the most part in favour of `std`. `std`, the platform's, where time counts. `libm` where the bits of a picture must be the same on every processor, or where there is no platform.",
+        advice: "Both backends are within an ulp; they differ in what they promise, and in speed, for the most part in \
+                 favour of `std`. `std`, the platform's, where time counts. `libm` where the bits of a picture must be \
+                 the same on every processor, or where there is no platform.",
     }
 }
 

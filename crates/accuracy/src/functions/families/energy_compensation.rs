@@ -90,7 +90,11 @@ fn build(effort: Effort) -> Setup {
             "None is single scattering, the rough conductor by itself. The other two add what it loses: Turquin's by scaling the \
              lobe, Kulla and Conty's by a second, diffuse one.",
         ],
-        advice: "Nothing where facets are smooth or dark, for little is lost there. Else Kulla and Conty's lobe: it is closest to the walk in energy and in shape, and reciprocal. Turquin's scaling costs about as much per evaluation and needs no second way of sampling, but is not reciprocal, and brightens the lobe instead of its surroundings. A random walk where its noise can be paid for: all of these are approximations of it.",
+        advice: "Nothing where facets are smooth or dark, for little is lost there. Else Kulla and Conty's lobe: it is \
+                 closest to the walk in energy and in shape, and reciprocal. Turquin's scaling costs about as much per \
+                 evaluation and needs no second way of sampling, but is not reciprocal, and brightens the lobe instead \
+                 of its surroundings. A random walk where its noise can be paid for: all of these are approximations \
+                 of it.",
     }
 }
 

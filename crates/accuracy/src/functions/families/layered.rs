@@ -76,9 +76,17 @@ fn build(effort: Effort) -> Setup {
         reference: "light followed bounce by bounce between interface and base (position-free Monte Carlo)",
         compute: Box::new(compute),
         prose: vec![
-            "Plastic transmits through a table of the interface and sums the reflections back and forth below it, with the base's colour at every one, or, linear, as if the base were white. Albedo scaling gives the base what the interface does not reflect towards the viewer: a look-up, no second direction, and not reciprocal. The coupled model has Shirley's matte term below the rough lobe. All are given the reflectance of the bare base; in the last two it stands for that of the base as seen through the coat, which is darker, and that is most of their error here.",
+            "Plastic transmits through a table of the interface and sums the reflections back and forth below it, with \
+             the base's colour at every one, or, linear, as if the base were white. Albedo scaling gives the base what \
+             the interface does not reflect towards the viewer: a look-up, no second direction, and not reciprocal. \
+             The coupled model has Shirley's matte term below the rough lobe. All are given the reflectance of the \
+             bare base; in the last two it stands for that of the base as seen through the coat, which is darker, and \
+             that is most of their error here.",
         ],
-        advice: "Plastic with reflections summed at every bounce: its error is that of the light that is followed itself. Linear plastic keeps hues and is wrong for dark bases. The coupled model needs no table and adds up to 1 for a white base, but must be given the colour that is seen. Albedo scaling is for stacks whose layers are not known beforehand, with the same reserve.",
+        advice: "Plastic with reflections summed at every bounce: its error is that of the light that is followed \
+                 itself. Linear plastic keeps hues and is wrong for dark bases. The coupled model needs no table and \
+                 adds up to 1 for a white base, but must be given the colour that is seen. Albedo scaling is for \
+                 stacks whose layers are not known beforehand, with the same reserve.",
     }
 }
 

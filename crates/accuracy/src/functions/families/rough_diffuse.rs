@@ -74,7 +74,11 @@ fn build(effort: Effort) -> Setup {
              here, as their authors do, so that part of their error is another meaning of the parameter. EON returns the \
              light of all bounces, the reference that of two.",
         ],
-        advice: "To reproduce measured or published surfaces described by σ, the full model. For a material whose energy must add up in a path tracer, EON: no closer to this surface, but it loses and gains nothing; its approximate albedo costs a fraction of the exact one and differs by far less than the models do among each other. For the shape alone, Fujii's model, which is both cheaper and closer than the qualitative one. Lambert's reflector is what all of them become when the surface is smooth.",
+        advice: "To reproduce measured or published surfaces described by σ, the full model. For a material whose \
+                 energy must add up in a path tracer, EON: no closer to this surface, but it loses and gains nothing; \
+                 its approximate albedo costs a fraction of the exact one and differs by far less than the models do \
+                 among each other. For the shape alone, Fujii's model, which is both cheaper and closer than the \
+                 qualitative one. Lambert's reflector is what all of them become when the surface is smooth.",
     }
 }
 

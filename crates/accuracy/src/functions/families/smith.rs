@@ -84,7 +84,10 @@ fn ggx_family(effort: Effort) -> Setup {
              distance from the height-correlated one. Energies are albedos of a surface that reflects everything at every \
              facet.",
         ],
-        advice: "The height-correlated form: it is exact for Smith's surface and costs little more than the separable one, whose use is to agree with renderers that have it. Hammon's fit has no root and takes a fraction of the time; it darkens smooth surfaces at grazing, and that shows in their energy. Schlick's fit imitates the separable form and adds its own error to that form's.",
+        advice: "The height-correlated form: it is exact for Smith's surface and costs little more than the separable \
+                 one, whose use is to agree with renderers that have it. Hammon's fit has no root and takes a fraction \
+                 of the time; it darkens smooth surfaces at grazing, and that shows in their energy. Schlick's fit \
+                 imitates the separable form and adds its own error to that form's.",
     }
 }
 
