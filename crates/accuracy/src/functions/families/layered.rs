@@ -8,6 +8,7 @@ use etendue_brdf::{
     Lambert, Masking, Microfacets, OpticalDepth, Reflectance, RoughCoupled, RoughDielectric,
     RoughPlastic, StochasticLayers, TransmittanceTable,
 };
+use etendue_math::quadrature::gauss_legendre;
 use etendue_math::{Vec3, Vector3};
 use etendue_sampling::{Pcg32, uniform};
 
@@ -22,7 +23,7 @@ pub(super) const INFO: FamilyInfo =
     FamilyInfo { name: "layered", title: "A matte base under a rough coat", build };
 
 /// Width of the interface and reflectance of the base.
-const MATERIALS: [(f64, f64); 4] = [(0.15, 0.2), (0.15, 0.8), (0.5, 0.2), (0.5, 0.8)];
+const MATERIALS: [(f64, f64); 4] = [(0.1, 0.2), (0.1, 0.8), (0.3, 0.2), (0.3, 0.8)];
 const ETA: f64 = 1.5;
 const POLAR: [f64; 4] = [10.0, 35.0, 60.0, 80.0];
 const AZIMUTHS: [f64; 4] = [0.0, 60.0, 120.0, 180.0];
@@ -37,10 +38,11 @@ fn build(effort: Effort) -> Setup {
     let cases = 0..MATERIALS.len();
     let polar = effort.choose(&POLAR[..], &POLAR[1..3]);
     let views = effort.choose(&VIEWS[..], &VIEWS[1..2]);
-    let probe = |case| views.iter().map(move |&t| albedo_probe::<64>(case, &material(case), t));
+    // Enough for the narrower lobe at grazing: 1e-3.
+    let probe = |case| views.iter().map(move |&t| albedo_probe::<128>(case, &material(case), t));
     let domain = Rc::new(Domain {
-        words: "GGX interface with η 1.5 and α 0.15 and 0.5 over bases of reflectance 0.2 and 0.8; polar angles of viewer and \
-                light 10°, 35°, 60° and 80°, azimuths between them from 0° to 180° in steps of 60°"
+        words: "GGX interface with η 1.5 and α 0.1 and 0.3 over bases of reflectance 0.2 and 0.8; polar angles of \
+                viewer and light 10°, 35°, 60° and 80°, azimuths between them from 0° to 180° in steps of 60°"
             .to_owned(),
         points: cases.clone().flat_map(|case| pairs(case, polar, &AZIMUTHS)).collect(),
         place: |pair: &Pair| format!("{}, {}", material(pair.case), pair.words()),
@@ -76,17 +78,18 @@ fn build(effort: Effort) -> Setup {
         reference: "light followed bounce by bounce between interface and base (position-free Monte Carlo)",
         compute: Box::new(compute),
         prose: vec![
-            "Plastic transmits through a table of the interface and sums the reflections back and forth below it, with \
-             the base's colour at every one, or, linear, as if the base were white. Albedo scaling gives the base what \
-             the interface does not reflect towards the viewer: a look-up, no second direction, and not reciprocal. \
-             The coupled model has Shirley's matte term below the rough lobe. All are given the reflectance of the \
-             bare base; in the last two it stands for that of the base as seen through the coat, which is darker, and \
-             that is most of their error here.",
+            "Plastic transmits through a table of the interface and sums the reflections back and forth below it, with the base's \
+             colour at every one, or, linear, as if the base were white. Albedo scaling gives the base what the interface does \
+             not reflect towards the viewer: a look-up, no second direction, and not reciprocal. The coupled model has \
+             Shirley's matte term below the rough lobe. Those two know the base only as it looks through the coat, darker \
+             by the reflections in between: they are given what leaves again of the light that has entered, and albedo \
+             scaling once more the bare ρ, as a stack of layers that know nothing of each other would. What facets scatter \
+             more than once is lost, in the reference as in the models.",
         ],
-        advice: "Plastic with reflections summed at every bounce: its error is that of the light that is followed \
-                 itself. Linear plastic keeps hues and is wrong for dark bases. The coupled model needs no table and \
-                 adds up to 1 for a white base, but must be given the colour that is seen. Albedo scaling is for \
-                 stacks whose layers are not known beforehand, with the same reserve.",
+        advice: "Plastic with reflections summed at every bounce: its error is that of the light that is followed itself. Linear \
+                 plastic keeps hues and is wrong for dark bases. The coupled model needs no table and comes close, if it is \
+                 given the colour that is seen; albedo scaling is hardly worse, but not reciprocal. With the bare colour \
+                 under the coat it is too bright, by more than all that distinguishes these formulas otherwise.",
     }
 }
 
@@ -123,7 +126,10 @@ fn forms<T: Scalar>(domain: &Rc<Domain<Pair>>) -> Vec<Variant> {
         cases.clone().map(model).collect::<Vec<_>>()
     };
     let coupled = |interface_of: CoupledInterface<T>| {
-        let model = |case| RoughCoupled::new(interface_of, interface(case), base(case));
+        let model = |case: usize| {
+            let colour = Reflectance::clamped(seen(tables[case], case));
+            RoughCoupled::new(interface_of, interface(case), colour)
+        };
         cases.clone().map(model).collect::<Vec<_>>()
     };
     let exact = CoupledInterface::dielectric(index()).expect("an index above 1");
@@ -133,20 +139,41 @@ fn forms<T: Scalar>(domain: &Rc<Domain<Pair>>) -> Vec<Variant> {
         .iter()
         .map(|table| RoughPlastic::<T>::new(table, Reflectance::clamped(T::ZERO), black))
         .collect();
-    let matte: Vec<T> = cases.clone().map(|case| base::<T>(case).value() * T::FRAC_1_PI).collect();
-    let scaling = {
-        let tables = tables.clone();
+    let scaling = |colour: fn(&TransmittanceTable<T>, usize) -> T| {
+        let matte = |case: usize| colour(tables[case], case) * T::FRAC_1_PI;
+        let matte: Vec<T> = cases.clone().map(matte).collect();
+        let (tables, specular) = (tables.clone(), specular.clone());
         move |&(case, [wo, wi]): &(usize, [Vec3<T>; 2])| {
             specular[case].eval(wo, wi) + matte[case] * tables[case].transmittance(wo.z())
         }
     };
+    let directions = |pair: &Pair| (pair.case, pair.vectors::<T>());
     vec![
         models("plastic", domain, plastic(InternalScattering::NonLinear)),
         models("linear plastic", domain, plastic(InternalScattering::Linear)),
         models("coupled, exact k", domain, coupled(exact)),
         models("coupled, Schlick's k", domain, coupled(schlick)),
-        Variant::new("albedo scaling", domain, |p: &Pair| (p.case, p.vectors::<T>()), scaling),
+        Variant::new("albedo scaling", domain, directions, scaling(seen)),
+        Variant::new("albedo scaling, bare colour", domain, directions, scaling(bare)),
     ]
+}
+
+/// The reflectance of the base below its table's interface as it is seen: what leaves again of the light that has entered.
+///
+/// ```text
+/// ρ T̄ / (η² (1 − ρ F_in)),  T̄ = 2 ∫ T(μ) μ dμ
+/// ```
+fn seen<T: Scalar>(table: &TransmittanceTable<T>, case: usize) -> T {
+    let rho = bare(table, case);
+    let transmitted = gauss_legendre::<T, 32>()
+        .into_iter()
+        .fold(T::ZERO, |sum, (mu, w)| sum + T::TWO * w * mu * table.transmittance(mu));
+    let eta = table.eta();
+    rho * transmitted / (eta * eta * (T::ONE - rho * table.internal_reflectance()))
+}
+
+fn bare<T: Scalar>(_: &TransmittanceTable<T>, case: usize) -> T {
+    T::lit(MATERIALS[case].1)
 }
 
 fn layers(case: usize) -> StochasticLayers<RoughDielectric<f64>, Lambert<f64>> {
