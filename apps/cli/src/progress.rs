@@ -1,4 +1,4 @@
-//! The progress of a render: a bar on a terminal, a line now and then otherwise.
+//! The progress of long work: a bar on a terminal, a line now and then otherwise.
 
 use std::io::IsTerminal;
 use std::sync::Mutex;
@@ -9,13 +9,20 @@ use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use crate::figures::error_in_percent;
 
-/// How far a render is.
+/// How far the work is.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Standing {
     /// The part of the work that is done, from 0 to 1.
     pub(crate) fraction: f64,
-    /// The present error of the picture, where it is known.
+    /// The present error of the picture, where there is one and it is known.
     pub(crate) error: Option<ImageError>,
+}
+
+impl Standing {
+    /// That so many of `total` parts are finished.
+    pub(crate) fn parts(finished: usize, total: usize) -> Self {
+        Self { fraction: finished as f64 / total.max(1) as f64, error: None }
+    }
 }
 
 /// Whether progress and summary are suppressed.
@@ -49,8 +56,8 @@ const INTERVAL: Duration = Duration::from_secs(5);
 const STEPS: u64 = 10_000;
 
 impl ProgressDisplay {
-    /// A display on standard error that suits what standard error is.
-    pub(crate) fn new(quiet: Quiet) -> Self {
+    /// A display on standard error that suits what standard error is; `work` is what goes on.
+    pub(crate) fn new(work: &str, quiet: Quiet) -> Self {
         if quiet == Quiet::Yes {
             return Self::Nothing;
         }
@@ -59,15 +66,17 @@ impl ProgressDisplay {
             return Self::Lines(Lines { start: now, last: Mutex::new(now) });
         }
         let bar = ProgressBar::with_draw_target(Some(STEPS), ProgressDrawTarget::stderr());
-        let template = "rendering {wide_bar} {percent:>3} %  {msg}{elapsed}, {eta} left";
-        // The template is a constant; a bar in the default style is no reason not to render.
+        let template =
+            format!("{work} {{wide_bar}} {{percent:>3}} %  {{msg}}{{elapsed}}, {{eta}} left");
+        // The template is one of a few constants; a bar in the default style is no reason not to render.
         bar.set_style(
-            ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar()),
+            ProgressStyle::with_template(&template)
+                .unwrap_or_else(|_| ProgressStyle::default_bar()),
         );
         Self::Bar(bar)
     }
 
-    /// Shows how far the render is.
+    /// Shows how far the work is.
     pub(crate) fn update(&self, now: Standing) {
         match self {
             Self::Nothing => {}

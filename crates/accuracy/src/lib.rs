@@ -6,13 +6,20 @@
 //!
 //! Errors are the same in every run. Times are not, so they are taken interleaved and given as ratios
 //! ([`timing`]).
+//!
+//! - [`functions`]: formulas that can be evaluated in more than one way.
 #![forbid(unsafe_code)]
+#![allow(
+    clippy::neg_cmp_op_on_partial_ord,
+    reason = "`!(x > 0)` is how NaN is refused along with what is not positive"
+)]
 #![allow(
     clippy::std_instead_of_alloc,
     clippy::std_instead_of_core,
     reason = "for programs on hosts with an operating system"
 )]
 
+pub mod functions;
 pub mod samplers;
 pub mod scene;
 pub mod timing;

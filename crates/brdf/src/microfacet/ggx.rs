@@ -91,6 +91,32 @@ pub fn visibility_hammon<T: Real>(cos_o: T, cos_i: T, alpha: T) -> T {
     if area > T::ZERO { (T::ONE / area).min(T::MAX) } else { T::ZERO }
 }
 
+/// A rational fit of the separable visibility `G1(wo) G1(wi) / (4 cos θo cos θi)`, without roots; isotropic. **For
+/// comparison only**: use [`Microfacets::visibility`](super::Microfacets::visibility).
+///
+/// ```text
+/// V ≈ 1 / (4 (co (1 − k) + k) (ci (1 − k) + k)),  k = α/2
+/// ```
+///
+/// It is the separable form with [`projected_area`] interpolated linearly in α between its values at 0 and 1, hence exact there
+/// and at normal incidence, and never above the exact value. [`visibility_hammon`] does the same to the height-correlated form.
+///
+/// * `cos_o`, `cos_i`: cosines in `[0, 1]`; `alpha` in `[0, 1]`. 0 where a cosine and α vanish.
+///
+/// # Precision
+/// Against the separable form too dark by at most 36 % (a factor 0.8²), where both cosines are about ¾ α and α is small.
+///
+/// # Source
+/// C. Schlick, "An Inexpensive BRDF Model for Physically-based Rendering", Eurographics 1994, eq. 19, with the k of
+/// B. Karis, "Real Shading in Unreal Engine 4", SIGGRAPH 2013 course.
+#[inline]
+pub fn visibility_schlick<T: Real>(cos_o: T, cos_i: T, alpha: T) -> T {
+    let k = T::HALF * alpha;
+    let area = |cos: T| cos * (T::ONE - k) + k;
+    let area = T::lit(4.0) * area(cos_o) * area(cos_i);
+    if area > T::ZERO { (T::ONE / area).min(T::MAX) } else { T::ZERO }
+}
+
 /// A facet normal, seen or not, with density `D(h) hz`.
 ///
 /// ```text
@@ -180,5 +206,25 @@ mod tests {
             assert!(worst < bound, "{alpha} {worst}");
         }
         assert!(worst_of(1e-4) > 0.29);
+    }
+
+    #[test]
+    fn schlicks_fit_is_as_good_as_it_says() {
+        let z = 0.75e-4;
+        let area = projected_area::<f64>(DVec3::new(1.0, 0.0, z), 1e-4, 1e-4);
+        let exact = |o: f64, i: f64| 1.0 / (4.0 * o * i);
+        // Where it is worst; z² beside 1.
+        let ratio = visibility_schlick(z, z, 1e-4) / exact(area, area);
+        assert!((ratio - 0.64).abs() < 1e-3, "{ratio}");
+        for alpha in [0.0, 1e-3, 0.1, 0.5, 1.0] {
+            for i in 1..=100 {
+                let cos = f64::from(i) / 100.0;
+                let w = DVec3::new(((1.0 - cos) * (1.0 + cos)).sqrt(), 0.0, cos);
+                let area = projected_area::<f64>(w, alpha, alpha);
+                let ratio = visibility_schlick(cos, 1.0, alpha) / exact(area, 1.0);
+                // One of the two factors; rounding.
+                assert!(ratio > 0.8 - 1e-12 && ratio < 1.0 + 1e-12, "{alpha} {cos} {ratio}");
+            }
+        }
     }
 }

@@ -12,7 +12,7 @@
 //!
 //! | question | exact | cheaper | reference |
 //! | --- | --- | --- | --- |
-//! | visibility of GGX | [`Microfacets::visibility`] | [`ggx::visibility_hammon`], up to 29 % dark | |
+//! | visibility of GGX | [`Microfacets::visibility`] | [`ggx::visibility_hammon`], up to 29 % dark; [`ggx::visibility_schlick`] | |
 //! | Smith's Λ of Beckmann | [`beckmann::lambda`] | [`beckmann::projected_area_walter`], 0.35 % | |
 //! | energy that single scattering loses | [`facet_loss`] | [`FacetLoss`], 1e-3 (GGX) | [`walk`] |
 //! | the same between two dielectrics | [`InterfaceAlbedo`] | [`InterfaceLoss`], interpolated | [`walk`] |

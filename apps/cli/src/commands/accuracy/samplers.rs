@@ -1,12 +1,11 @@
 //! `etendue accuracy samplers`: noise and time of every way of sampling every model.
 
 use etendue_accuracy::samplers::{self, Settings};
-use etendue_renderer::Progress;
 
 use super::facts;
 use super::report_files::ReportArguments;
 use crate::failure::{Exit, Failure};
-use crate::progress::{ProgressDisplay, Quiet};
+use crate::progress::{ProgressDisplay, Quiet, Standing};
 
 /// Variance, time and efficiency of every way of drawing directions from every model.
 #[derive(Debug, clap::Args)]
@@ -34,9 +33,10 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     let files = arguments.files.check(PART)?;
     let base = if arguments.quick { Settings::quick() } else { Settings::usual() };
     let settings = Settings { models: arguments.models.clone(), seed: arguments.seed, ..base };
-    let display = ProgressDisplay::new(if arguments.quiet { Quiet::Yes } else { Quiet::No });
+    let display =
+        ProgressDisplay::new("measuring", if arguments.quiet { Quiet::Yes } else { Quiet::No });
     let measurement = samplers::measure(&settings, &mut |finished, total| {
-        display.update(Progress { finished, total });
+        display.update(Standing::parts(finished, total));
     });
     display.finish();
     files.write(&samplers::report(&measurement, &settings, facts::of_this_run()), PART)?;

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use etendue_accuracy::scene::{self, Checkpoint, ExperimentError, Settings, Subject, Watch};
 use etendue_math::mix_u64;
-use etendue_renderer::Image;
+use etendue_renderer::{Image, Progress};
 use etendue_scene::{LoadOptions, LoadedScene, load_scene};
 
 use super::facts;
@@ -15,7 +15,7 @@ use crate::commands::scene_arguments::{SceneArguments, load};
 use crate::commands::values::size;
 use crate::failure::{Exit, Failure};
 use crate::interrupt::Interrupt;
-use crate::progress::{ProgressDisplay, Quiet};
+use crate::progress::{ProgressDisplay, Quiet, Standing};
 
 /// Error against time of ways to render a scene: strategies, points, limits of path lengths, forms of models.
 #[derive(Debug, clap::Args)]
@@ -74,8 +74,12 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     let checkpoint =
         arguments.checkpoint.as_ref().map(open).transpose().map_err(ExperimentError::from)?;
 
-    let display = ProgressDisplay::new(if arguments.quiet { Quiet::Yes } else { Quiet::No });
-    let watch = Watch { progress: &|now| display.update(now), cancel: interrupt.flag() };
+    let display =
+        ProgressDisplay::new("measuring", if arguments.quiet { Quiet::Yes } else { Quiet::No });
+    let watch = Watch {
+        progress: &|now: Progress| display.update(Standing::parts(now.finished, now.total)),
+        cancel: interrupt.flag(),
+    };
     let outcome = scene::run(&subject, &settings, reference, checkpoint, &watch);
     display.finish();
     let Some(outcome) = outcome? else {

@@ -51,7 +51,7 @@ pub(super) fn draw(task: &Task, scene: &Scene, interrupt: &Interrupt) -> Result<
     } else {
         Vec::new()
     };
-    let progress = ProgressDisplay::new(task.quiet);
+    let progress = ProgressDisplay::new("rendering", task.quiet);
     let (mut drawing, variance, samples) = match task.method {
         Method::Plain => (plain(&renderer, interrupt, &progress), Image::black([0, 0]), Vec::new()),
         Method::Progressive { goal, time } => {
@@ -67,8 +67,7 @@ pub(super) fn draw(task: &Task, scene: &Scene, interrupt: &Interrupt) -> Result<
 
 fn plain(renderer: &Renderer<'_>, interrupt: &Interrupt, progress: &ProgressDisplay) -> Drawing {
     let report = |now: etendue_renderer::Progress| {
-        let fraction = now.finished as f64 / now.total as f64;
-        progress.update(Standing { fraction, error: None });
+        progress.update(Standing::parts(now.finished, now.total));
     };
     let rendering = renderer.render(&report, interrupt.flag());
     let finished = rendering.progress.finished == rendering.progress.total;
