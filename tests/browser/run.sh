@@ -14,7 +14,7 @@ trap 'rm -rf "$folder"' EXIT
 etendue() { cargo run --release --locked --quiet --bin etendue -- "$@" >/dev/null; }
 etendue accuracy functions --quick --quiet --html "$folder/functions.html"
 etendue accuracy samplers --quick --quiet --html "$folder/samplers.html"
-etendue accuracy scene scenes/cornell-box/scene.xml --quick --quiet --html "$folder/scene.html"
+etendue accuracy scene scenes/cornell-box/scene.xml --size 24x24 --spp-max 8 --replications 4 --quiet --html "$folder/scene.html"
 
 cd tests/browser
 npm ci --silent --no-audit --no-fund
