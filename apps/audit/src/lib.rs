@@ -16,7 +16,7 @@
 //! | [`partition`], [`cubature`], [`statistics`] | the numerics under the checks |
 //! | [`run`], [`report`] | everything on all cores, printed, as JSON and as Markdown |
 //! | [`mutations`] | bugs that the audit must find |
-//! | [`model_table`], [`document`] | what programs write in documents |
+//! | [`model_table`] | what programs write in documents, by `etendue_report::document` |
 //!
 //! # Non-goals
 //! No speed is measured, and no picture is looked at.
