@@ -3,7 +3,6 @@
 mod common;
 
 use common::Folder;
-use serde_json::Value;
 
 /// A family without references that take long.
 const FAMILY: &str = "dielectric-fresnel";
@@ -17,9 +16,8 @@ fn every_output_of_a_quick_run_can_be_read() {
     let outcome = folder.run(&[&fixed[..], &files].concat());
     assert_eq!(outcome.exit, Some(0), "{}", outcome.stderr);
     assert_eq!(outcome.stderr, "");
-    let read = |name: &str| std::fs::read_to_string(folder.path(name)).expect(name);
 
-    let json: Value = serde_json::from_str(&read("r.json")).expect("JSON");
+    let json = folder.json("r.json");
     let rows = json["sections"][FAMILY]["rows"].as_array().expect("rows of the family");
     assert_eq!(rows.iter().filter(|row| row["exact"] == true).count(), 1);
     assert!(rows.iter().any(|row| row["front_time"] == true));
@@ -32,7 +30,7 @@ fn every_output_of_a_quick_run_can_be_read() {
     assert!(error("stable", "f64") < 1e-15 && error("stable", "f32") < 1e-6);
     assert!(error("Schlick by products", "f64") > 1e-3);
 
-    let csv = read("r.csv");
+    let csv = folder.read("r.csv");
     let width = |line: &str| {
         line.split('"').step_by(2).map(|part| part.matches(',').count()).sum::<usize>()
     };
@@ -43,12 +41,12 @@ fn every_output_of_a_quick_run_can_be_read() {
         assert_eq!(width(line), width(heading), "{line}");
     }
 
-    let svg = read("r.svg");
+    let svg = folder.read("r.svg");
     let picture = roxmltree::Document::parse(&svg).expect("well-formed SVG");
     let markers =
         |node: &roxmltree::Node| node.attribute("class").is_some_and(|c| c.starts_with("marker"));
     assert!(picture.descendants().filter(markers).count() >= rows.len());
-    let html = read("r.html");
+    let html = folder.read("r.html");
     // But for the type of the document and the void elements of its head, the page is XML.
     let page = html.replace("<!DOCTYPE html>\n", "").replace("<meta charset=\"utf-8\">", "");
     let page = page.replace("content=\"width=device-width,initial-scale=1\">", "content=\"\"/>");
@@ -65,7 +63,7 @@ fn a_document_gets_its_part_and_its_pictures() {
     let outcome =
         folder.run(&[&arguments[..], &["--family", FAMILY, "--markdown", "doc.md"]].concat());
     assert_eq!(outcome.exit, Some(0), "{}", outcome.stderr);
-    let document = std::fs::read_to_string(folder.path("doc.md")).expect("the document");
+    let document = folder.read("doc.md");
     assert!(document.starts_with("before\n") && document.ends_with("after\n"));
     let picture = format!("images/accuracy/functions-{FAMILY}.svg");
     assert!(document.contains(&picture), "{document}");

@@ -2,15 +2,7 @@
 
 mod common;
 
-use std::fs;
-
 use common::Folder;
-use serde_json::Value;
-
-fn json(folder: &Folder, name: &str) -> Value {
-    let text = fs::read_to_string(folder.path(name)).expect("written");
-    serde_json::from_str(&text).expect("JSON")
-}
 
 #[test]
 fn samplers_of_a_model_leave_every_kind_of_file() {
@@ -37,7 +29,7 @@ fn samplers_of_a_model_leave_every_kind_of_file() {
     assert_eq!((outcome.exit, outcome.stderr.as_str()), (Some(0), ""));
     assert!(outcome.stdout.contains("| lambert | cosine |"), "{}", outcome.stdout);
 
-    let json = json(&folder, "a.json");
+    let json = folder.json("a.json");
     assert!(json["facts"]["date"].is_string() && json["facts"]["processor"].is_string());
     let rows = json["sections"]["furnace"]["rows"].as_array().expect("rows");
     assert_eq!(rows.len(), 3);
@@ -46,11 +38,11 @@ fn samplers_of_a_model_leave_every_kind_of_file() {
         assert_eq!(row["efficiency_independent"] == "exact", !is_uniform, "{row}");
     }
     // One row of the digest, then three sections of three rows, under two lines of headings with an empty line between.
-    let csv = fs::read_to_string(folder.path("a.csv")).expect("written");
+    let csv = folder.read("a.csv");
     assert_eq!(csv.lines().count(), 13, "{csv}");
-    assert!(fs::read_to_string(folder.path("a.html")).expect("written").contains("<svg"));
-    assert!(fs::read_to_string(folder.path("a.svg")).expect("written").starts_with("<svg"));
-    let document = fs::read_to_string(folder.path("doc.md")).expect("written");
+    assert!(folder.read("a.html").contains("<svg"));
+    assert!(folder.read("a.svg").starts_with("<svg"));
+    let document = folder.read("doc.md");
     assert!(document.contains("(images/accuracy/samplers-furnace.svg)"), "{document}");
     assert!(folder.path("images/accuracy/samplers-furnace.svg").exists());
 }

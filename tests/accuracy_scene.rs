@@ -34,11 +34,6 @@ fn run(folder: &Folder, more: &[&str]) -> Outcome {
     folder.run(&arguments)
 }
 
-fn json(folder: &Folder, name: &str) -> Value {
-    let text = fs::read_to_string(folder.path(name)).expect("written");
-    serde_json::from_str(&text).expect("JSON")
-}
-
 #[test]
 fn a_scene_has_a_row_for_every_variant_and_level_in_every_kind_of_file() {
     let folder = Folder::new();
@@ -57,7 +52,7 @@ fn a_scene_has_a_row_for_every_variant_and_level_in_every_kind_of_file() {
     ];
     let outcome = run(&folder, &files);
     assert_eq!(outcome.exit, Some(0), "{}", outcome.stderr);
-    let json = json(&folder, "a.json");
+    let json = folder.json("a.json");
     assert_eq!(json["facts"]["size"], "8×8");
     let rows = |section: &str| json["sections"][section]["rows"].as_array().expect("rows").clone();
     let variants = rows("times").len();
@@ -67,10 +62,10 @@ fn a_scene_has_a_row_for_every_variant_and_level_in_every_kind_of_file() {
     assert_eq!(rows("levels").len(), 3 * variants);
     assert!(rows("bias").iter().any(|row| row["variant"] == "Oren–Nayar, qualitative"));
     for name in ["a.csv", "a.svg", "a.html"] {
-        let text = fs::read_to_string(folder.path(name)).expect("written");
+        let text = folder.read(name);
         assert!(text.contains("BSDF only"), "{name}");
     }
-    let document = fs::read_to_string(folder.path("doc.md")).expect("written");
+    let document = folder.read("doc.md");
     assert!(document.contains("(images/accuracy/scene-times-2.svg)"), "{document}");
 }
 
@@ -82,7 +77,7 @@ fn a_checkpoint_is_gone_on_from_and_that_of_another_experiment_refused() {
     let second = run(&folder, &["--checkpoint", "kept", "--json", "b.json"]);
     assert_eq!(second.exit, Some(0), "{}", second.stderr);
     // Times too: nothing was rendered again.
-    assert_eq!(json(&folder, "a.json"), json(&folder, "b.json"));
+    assert_eq!(folder.json("a.json"), folder.json("b.json"));
     let other = run(&folder, &["--checkpoint", "kept", "--seed", "2"]);
     assert_eq!(other.exit, Some(4));
     assert!(other.errors()[0].contains("seed is 1 there and 2 now"), "{}", other.stderr);
@@ -127,7 +122,7 @@ fn a_given_reference_sets_the_size_and_one_of_another_size_is_refused() {
     ];
     let outcome = folder.run(&arguments);
     assert_eq!(outcome.exit, Some(0), "{}", outcome.stderr);
-    assert_eq!(json(&folder, "a.json")["facts"]["reference"], "given");
+    assert_eq!(folder.json("a.json")["facts"]["reference"], "given");
 }
 
 #[test]

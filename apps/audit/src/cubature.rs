@@ -1,5 +1,7 @@
 //! Adaptive integration over rectangles of the sphere.
 
+use core::array;
+
 use etendue_math::Real;
 use etendue_math::quadrature::gauss_legendre;
 
@@ -78,51 +80,60 @@ impl Default for Cubature {
 }
 
 impl Cubature {
-    /// `∫ f dω` over a cell; `f` takes a unit direction.
+    /// `∫ f dω` over a cell, of several quantities at the same points; `f` takes a unit direction.
     ///
     /// ```text
-    /// accept Σ quarters when |Σ quarters − whole| ≤ tolerance, else refine each with tolerance/2
+    /// accept Σ quarters when |Σ quarters − whole| ≤ tolerance for each quantity, else refine each with tolerance/2
     /// ```
     ///
     /// Halving (not quartering) the tolerance suits integrands whose error sits along a curve.
-    pub fn integrate(&self, cell: Cell, tolerance: f64, f: &impl Fn([f64; 3]) -> f64) -> Integral {
+    pub fn integrate<const N: usize>(
+        &self,
+        cell: Cell,
+        tolerance: f64,
+        f: &impl Fn([f64; 3]) -> [f64; N],
+    ) -> [Integral; N] {
         self.refine(cell, self.whole(cell, f), tolerance, MAX_DEPTH, f)
     }
 
-    fn refine(
+    fn refine<const N: usize>(
         &self,
         cell: Cell,
-        whole: f64,
+        whole: [f64; N],
         tolerance: f64,
         depth: u32,
-        f: &impl Fn([f64; 3]) -> f64,
-    ) -> Integral {
+        f: &impl Fn([f64; 3]) -> [f64; N],
+    ) -> [Integral; N] {
         let quarters = cell.quarters().map(|q| (q, self.whole(q, f)));
-        let value: f64 = quarters.iter().map(|q| q.1).sum();
-        let error = (value - whole).abs();
-        // NaN compares false and would refine without end were it not for the depth.
+        let refined = array::from_fn(|n| {
+            let value: f64 = quarters.iter().map(|q| q.1[n]).sum();
+            Integral { value, error: (value - whole[n]).abs() }
+        });
         let deep = depth <= MAX_DEPTH - (MIN_DEPTH - 1);
-        if (error <= tolerance && deep) || depth == 0 || value.is_nan() {
-            return Integral { value, error };
+        // NaN compares false and would refine without end were it not for the depth.
+        let accurate = refined.iter().all(|i| i.error <= tolerance);
+        if (accurate && deep) || depth == 0 || refined.iter().any(|i| i.value.is_nan()) {
+            return refined;
         }
-        quarters
-            .iter()
-            .map(|&(q, whole)| self.refine(q, whole, 0.5 * tolerance, depth - 1, f))
-            .sum()
+        let parts = quarters.map(|(q, whole)| self.refine(q, whole, 0.5 * tolerance, depth - 1, f));
+        array::from_fn(|n| parts.iter().map(|part| part[n]).sum())
     }
 
-    fn whole(&self, cell: Cell, f: &impl Fn([f64; 3]) -> f64) -> f64 {
+    fn whole<const N: usize>(&self, cell: Cell, f: &impl Fn([f64; 3]) -> [f64; N]) -> [f64; N] {
         let (dz, dphi) = (cell.z[1] - cell.z[0], cell.phi[1] - cell.phi[0]);
-        let mut sum = 0.0;
+        let mut sum = [0.0; N];
         for (x, wz) in self.rule {
             let z = cell.z[0] + dz * x;
             let sin = ((1.0 - z) * (1.0 + z)).sqrt();
             for (y, wphi) in self.rule {
                 let (s, c) = Real::sin_cos(cell.phi[0] + dphi * y);
-                sum += wz * wphi * f([sin * c, sin * s, z]);
+                let values = f([sin * c, sin * s, z]);
+                for (sum, value) in sum.iter_mut().zip(values) {
+                    *sum += wz * wphi * value;
+                }
             }
         }
-        sum * dz * dphi
+        sum.map(|sum| sum * dz * dphi)
     }
 }
 
@@ -131,7 +142,8 @@ mod tests {
     use super::*;
 
     fn sphere(f: impl Fn([f64; 3]) -> f64) -> Integral {
-        Cell::HEMISPHERES.iter().map(|&c| Cubature::default().integrate(c, 1e-9, &f)).sum()
+        let rule = Cubature::default();
+        Cell::HEMISPHERES.iter().flat_map(|&c| rule.integrate(c, 1e-9, &|w| [f(w)])).sum()
     }
 
     #[test]

@@ -87,14 +87,35 @@ impl Partition {
 
     /// `∫ f dω` over every cell, `tolerance` for all of them together.
     pub fn integrate_each(&self, tolerance: f64, f: impl Fn([f64; 3]) -> f64) -> Vec<Integral> {
-        let rule = Cubature::default();
-        let each = tolerance / self.cells.len() as f64;
-        self.cells.iter().map(|&c| rule.integrate(c, each, &f)).collect()
+        self.each(tolerance, |w| [f(w)]).map(|[integral]| integral).collect()
     }
 
     /// `∫ f dω` over the sphere.
     pub fn integrate(&self, tolerance: f64, f: impl Fn([f64; 3]) -> f64) -> Integral {
-        self.integrate_each(tolerance, f).into_iter().sum()
+        let [integral] = self.integrate_all(tolerance, |w| [f(w)]);
+        integral
+    }
+
+    /// `∫ f dω` over the sphere of several quantities, which share the points where they are evaluated.
+    pub fn integrate_all<const N: usize>(
+        &self,
+        tolerance: f64,
+        f: impl Fn([f64; 3]) -> [f64; N],
+    ) -> [Integral; N] {
+        self.each(tolerance, f).fold([Integral::default(); N], |mut sum, cell| {
+            sum.iter_mut().zip(cell).for_each(|(sum, part)| *sum += part);
+            sum
+        })
+    }
+
+    fn each<const N: usize>(
+        &self,
+        tolerance: f64,
+        f: impl Fn([f64; 3]) -> [f64; N],
+    ) -> impl Iterator<Item = [Integral; N]> {
+        let rule = Cubature::default();
+        let each = tolerance / self.cells.len() as f64;
+        self.cells.iter().map(move |&c| rule.integrate(c, each, &f))
     }
 }
 

@@ -26,10 +26,11 @@ impl Standing {
 }
 
 /// Whether progress and summary are suppressed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Quiet {
-    Yes,
-    No,
+#[derive(Clone, Copy, Debug, clap::Args)]
+pub(crate) struct Quiet {
+    /// Print no progress and no summary.
+    #[arg(long, short)]
+    pub(crate) quiet: bool,
 }
 
 /// Where progress goes.
@@ -57,8 +58,8 @@ const STEPS: u64 = 10_000;
 
 impl ProgressDisplay {
     /// A display on standard error that suits what standard error is; `work` is what goes on.
-    pub(crate) fn new(work: &str, quiet: Quiet) -> Self {
-        if quiet == Quiet::Yes {
+    pub(crate) fn new(work: &str, Quiet { quiet }: Quiet) -> Self {
+        if quiet {
             return Self::Nothing;
         }
         if !std::io::stderr().is_terminal() {

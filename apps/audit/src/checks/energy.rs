@@ -72,16 +72,11 @@ fn sides<T: Scalar>(case: &Case<T>, wo: Vec3<T>, context: &Context) -> [Integral
         return [Integral::default(); 2];
     }
     let partition = case.partition(wo, context.budget.pilot);
-    let side = |sign: f64| {
-        partition.integrate(TOLERANCE, |w| {
-            if w[2] * sign * wo.z().to_f64() > 0.0 {
-                case.bsdf.eval(wo, narrow::<T>(w)).to_f64() * w[2].abs()
-            } else {
-                0.0
-            }
-        })
-    };
-    [side(1.0), side(-1.0)]
+    let up = wo.z().to_f64().is_sign_positive();
+    partition.integrate_all(TOLERANCE, |w| {
+        let flux = case.bsdf.eval(wo, narrow::<T>(w)).to_f64() * w[2].abs();
+        if w[2].is_sign_positive() == up { [flux, 0.0] } else { [0.0, flux] }
+    })
 }
 
 #[cfg(test)]

@@ -32,10 +32,10 @@ pub(super) fn check<T: Scalar>(subject: &Subject<T>, context: &Context) -> Outco
         let lost = lost as f64 / count as f64;
         let delta = lobes_of(case, wo).iter().fold(0.0, |sum, l| sum + l.probability);
         let partition = case.partition(wo, context.budget.pilot);
-        let whole = partition.integrate(1e-4, |w| case.bsdf.pdf(wo, narrow::<T>(w)).to_f64());
-        let returned = partition.integrate(1e-4, |w| {
-            let wi = narrow::<T>(w);
-            if case.bsdf.eval(wo, wi) == T::ZERO { 0.0 } else { case.bsdf.pdf(wo, wi).to_f64() }
+        let [whole, returned] = partition.integrate_all(1e-4, |w| {
+            let (f, pdf) = case.bsdf.eval_pdf(wo, narrow::<T>(w));
+            let pdf = pdf.to_f64();
+            [pdf, if f == T::ZERO { 0.0 } else { pdf }]
         });
         let noise = 5.0 * (lost * (1.0 - lost) / count as f64).sqrt();
         let error = whole.error.max(returned.error);

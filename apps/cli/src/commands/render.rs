@@ -68,9 +68,8 @@ pub(crate) struct Arguments {
     /// Sample type of EXR pictures.
     #[arg(long, value_name = "TYPE", default_value = "float")]
     precision: Precision,
-    /// Print no progress and no summary.
-    #[arg(long, short)]
-    quiet: bool,
+    #[command(flatten)]
+    quiet: Quiet,
     /// Print one line of statistics as JSON.
     #[arg(long)]
     json: bool,
@@ -121,10 +120,6 @@ impl Arguments {
             ..self.scene.load_options()
         }
     }
-
-    fn quiet(&self) -> Quiet {
-        if self.quiet { Quiet::Yes } else { Quiet::No }
-    }
 }
 
 pub(crate) fn run(arguments: &Arguments) -> Result<Exit, Failure> {
@@ -151,7 +146,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     let encoding = Encoding { precision: arguments.precision, exposure: arguments.exposure };
     let metadata = report.metadata(arguments, &loaded);
     output.write(&drawing.image, &drawing.layers, encoding, &metadata)?;
-    if !arguments.quiet {
+    if !arguments.quiet.quiet {
         eprintln!("etendue: {}", report.summary(&output));
     }
     if arguments.json {

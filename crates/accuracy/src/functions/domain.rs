@@ -1,5 +1,9 @@
 //! Where a family is compared.
 
+use std::rc::Rc;
+
+use super::reference::Reference;
+
 /// A set of points, the same in every run, and the sums over points that are energies.
 ///
 /// Scalars are numbers of `f32`, so that variants in either precision are given the same ones: what differs is how they
@@ -33,6 +37,22 @@ impl<P> Domain<P> {
     pub fn energies(&self, f: impl Fn(&P) -> f64) -> Vec<f64> {
         let sum = |probe: &Probe<P>| probe.nodes.iter().map(|(point, w)| w * f(point)).sum();
         self.probes.iter().map(sum).collect()
+    }
+
+    /// The reference that is a function's values and energies to the last digits.
+    pub(super) fn reference(
+        self: &Rc<Self>,
+        exact: impl Fn(&P) -> f64 + 'static,
+    ) -> Box<dyn Fn() -> Reference>
+    where
+        P: 'static,
+    {
+        let domain = Rc::clone(self);
+        Box::new(move || Reference {
+            values: domain.values(&exact),
+            energies: domain.energies(&exact),
+            uncertainty: None,
+        })
     }
 }
 

@@ -19,12 +19,10 @@ pub struct Setup {
     pub quantity: &'static str,
     /// By which error variants are judged in the chart and on the front.
     pub judged_by: ErrorKind,
-    /// The exact variant: the one whose error the audit bounds. Times are ratios to its time.
-    pub exact: Variant,
-    /// What that error, as [`judged_by`](Self::judged_by), may be against the reference.
+    /// The variants, first the exact one: the one whose error the audit bounds. Times are ratios to its time.
+    pub variants: Vec<Variant>,
+    /// What the error of the exact one, as [`judged_by`](Self::judged_by), may be against the reference.
     pub bound: f64,
-    /// The others.
-    pub others: Vec<Variant>,
     /// The domain.
     pub ground: Box<dyn Ground>,
     /// What the reference is.
@@ -101,12 +99,5 @@ impl FamilyInfo {
     /// The family with as many points as `effort` allows.
     pub fn family(&self, effort: Effort) -> Family {
         Family { name: self.name, title: self.title, setup: (self.build)(effort) }
-    }
-}
-
-impl Family {
-    /// All variants, the exact one first.
-    pub fn variants(&self) -> impl Iterator<Item = &Variant> {
-        core::iter::once(&self.setup.exact).chain(&self.setup.others)
     }
 }

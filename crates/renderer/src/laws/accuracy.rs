@@ -6,7 +6,7 @@ use etendue_scene::film::ReconstructionFilter;
 use etendue_scene::scene::SamplerKind;
 use etendue_scene::{LoadOptions, Scene, load_scene};
 
-use super::scenes::{Sketch, rectangle, settings, sphere};
+use super::scenes::{Sketch, lamp_over_sphere, settings};
 use crate::progressive::{Allocation, CONFIDENCE, Goal, Halt, ImageError, ProgressiveRendering};
 use crate::{Image, RenderSettings, Renderer, Strategy};
 
@@ -29,13 +29,7 @@ fn shipped(name: &'static str, file: &str, size: [u32; 2], error: f64) -> Case {
 
 /// A sphere on a floor under a lamp, by independent samples.
 fn lamp() -> Case {
-    let mut sketch = Sketch::default();
-    let (grey, black) = (sketch.grey(0.7), sketch.grey(0.0));
-    sketch.shape(rectangle(DVec3::ZERO, [4.0, 4.0], DVec3::Z), grey);
-    sketch.shape(sphere(DVec3::new(0.0, 0.0, 0.7), 0.7), grey);
-    sketch.emitter(rectangle(DVec3::new(1.0, 1.0, 3.0), [0.5, 0.5], -DVec3::Z), black, 10.0);
-    sketch.sky(0.3);
-    let mut scene = sketch.seen(DVec3::new(0.0, -4.0, 2.0), DVec3::ZERO, 50.0, [24, 16]);
+    let mut scene = lamp_over_sphere([24, 16]);
     scene.film.filter = ReconstructionFilter::Gaussian { stddev: 0.5 };
     Case { name: "lamp", scene, sampler: SamplerKind::Independent, error: 0.04 }
 }

@@ -3,23 +3,16 @@
 use core::sync::atomic::{AtomicBool, Ordering};
 use std::sync::Mutex;
 
-use etendue_math::glam::DVec3;
 use etendue_scene::Scene;
 use etendue_scene::film::{Crop, ReconstructionFilter};
 use etendue_scene::scene::SamplerKind;
 
-use super::scenes::{Sketch, rectangle, settings, sphere};
+use super::scenes::{lamp_over_sphere, settings};
 use crate::tile::Tile;
 use crate::{Progress, RenderSettings, Renderer, Rendering, Strategy};
 
 fn scene() -> Scene {
-    let mut sketch = Sketch::default();
-    let (grey, black) = (sketch.grey(0.7), sketch.grey(0.0));
-    sketch.shape(rectangle(DVec3::ZERO, [4.0, 4.0], DVec3::Z), grey);
-    sketch.shape(sphere(DVec3::new(0.0, 0.0, 0.7), 0.7), grey);
-    sketch.emitter(rectangle(DVec3::new(1.0, 1.0, 3.0), [0.5, 0.5], -DVec3::Z), black, 10.0);
-    sketch.sky(0.3);
-    sketch.seen(DVec3::new(0.0, -4.0, 2.0), DVec3::ZERO, 50.0, [70, 45])
+    lamp_over_sphere([70, 45])
 }
 
 fn render(scene: &Scene, settings: RenderSettings) -> Rendering {

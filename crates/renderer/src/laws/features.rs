@@ -2,10 +2,10 @@
 
 use core::sync::atomic::AtomicBool;
 
-use etendue_brdf::{Bsdf, Distribution, Masking};
+use etendue_brdf::Bsdf;
 use etendue_math::glam::{DVec3, Vec3};
 use etendue_math::{Real, Spectrum};
-use etendue_scene::material::{ConductorIndex, Material, PreparedMaterials, Roughness, Side};
+use etendue_scene::material::{PreparedMaterials, Side};
 use etendue_scene::{Color, Scene};
 
 use super::scenes::{Sketch, rectangle, settings, sphere};
@@ -60,19 +60,7 @@ fn pixels_that_are_partly_covered_show_a_part() {
 #[test]
 fn an_albedo_without_a_closed_form_is_estimated() {
     let mut sketch = Sketch::default();
-    let white = sketch.textures.constant(Color::white());
-    let alpha = sketch.textures.constant(Color::splat(0.5));
-    let roughness = Roughness {
-        distribution: Distribution::Ggx,
-        masking: Masking::HeightCorrelated,
-        alpha_u: alpha,
-        alpha_v: alpha,
-    };
-    let metal = sketch.material(Material::Conductor {
-        index: ConductorIndex::Mirror,
-        roughness: Some(roughness),
-        specular_reflectance: white,
-    });
+    let metal = sketch.rough_mirror(0.5);
     sketch.shape(rectangle(DVec3::ZERO, [4.0, 4.0], DVec3::Z), metal);
     sketch.sky(1.0);
     let scene = sketch.point_seen(DVec3::new(0.0, -1.0, 1.0), DVec3::ZERO);

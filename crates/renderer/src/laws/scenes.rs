@@ -1,12 +1,13 @@
 //! Small scenes, and estimates with error bars.
 
+use etendue_brdf::{Distribution, Masking};
 use etendue_math::glam::DVec3;
 use etendue_math::{Real, Spectrum};
 use etendue_scene::camera::{Camera, FieldOfView, FovAxis, Projection};
 use etendue_scene::film::{Film, ReconstructionFilter};
 use etendue_scene::geometry::{GeometryBuilder, Rectangle, Shape, Sphere, Transform};
 use etendue_scene::light::{AreaLight, ConstantLight, Light, LightId};
-use etendue_scene::material::{Material, MaterialId, Materials};
+use etendue_scene::material::{ConductorIndex, Material, MaterialId, Materials, Roughness};
 use etendue_scene::scene::{PathSettings, SamplerKind, SamplingSettings, SceneParts, SurfaceInfo};
 use etendue_scene::texture::Textures;
 use etendue_scene::{Color, Scene};
@@ -31,6 +32,23 @@ impl Sketch {
 
     pub(super) fn material(&mut self, material: Material) -> MaterialId {
         self.materials.add(material).expect("textures and materials exist")
+    }
+
+    /// GGX facets of width `alpha`, each of which reflects everything.
+    pub(super) fn rough_mirror(&mut self, alpha: f32) -> MaterialId {
+        let white = self.textures.constant(Color::white());
+        let alpha = self.textures.constant(Color::splat(alpha));
+        let roughness = Roughness {
+            distribution: Distribution::Ggx,
+            masking: Masking::HeightCorrelated,
+            alpha_u: alpha,
+            alpha_v: alpha,
+        };
+        self.material(Material::Conductor {
+            index: ConductorIndex::Mirror,
+            roughness: Some(roughness),
+            specular_reflectance: white,
+        })
     }
 
     pub(super) fn shape(&mut self, shape: Shape, material: MaterialId) {
@@ -80,6 +98,17 @@ impl Sketch {
     pub(super) fn point_seen(self, eye: DVec3, target: DVec3) -> Scene {
         self.seen(eye, target, 1e-3, [1, 1])
     }
+}
+
+/// A sphere on a floor under a lamp.
+pub(super) fn lamp_over_sphere(size: [u32; 2]) -> Scene {
+    let mut sketch = Sketch::default();
+    let (grey, black) = (sketch.grey(0.7), sketch.grey(0.0));
+    sketch.shape(rectangle(DVec3::ZERO, [4.0, 4.0], DVec3::Z), grey);
+    sketch.shape(sphere(DVec3::new(0.0, 0.0, 0.7), 0.7), grey);
+    sketch.emitter(rectangle(DVec3::new(1.0, 1.0, 3.0), [0.5, 0.5], -DVec3::Z), black, 10.0);
+    sketch.sky(0.3);
+    sketch.seen(DVec3::new(0.0, -4.0, 2.0), DVec3::ZERO, 50.0, size)
 }
 
 /// A sphere whose front is outside.

@@ -1,10 +1,8 @@
 //! Strategies differ in noise, never in expectation.
 
-use etendue_brdf::{Distribution, Masking};
 use etendue_math::Spectrum;
 use etendue_math::glam::{DVec3, Vec3};
 use etendue_scene::light::{Light, PointLight};
-use etendue_scene::material::{ConductorIndex, Material, Roughness};
 use etendue_scene::{Color, Scene};
 
 use super::scenes::{Sketch, estimate, rectangle, settings, sphere};
@@ -14,19 +12,7 @@ use crate::Strategy;
 fn glossy_floor() -> Scene {
     let mut sketch = Sketch::default();
     let (grey, black) = (sketch.grey(0.5), sketch.grey(0.0));
-    let white = sketch.textures.constant(Color::white());
-    let alpha = sketch.textures.constant(Color::splat(0.3));
-    let roughness = Roughness {
-        distribution: Distribution::Ggx,
-        masking: Masking::HeightCorrelated,
-        alpha_u: alpha,
-        alpha_v: alpha,
-    };
-    let metal = sketch.material(Material::Conductor {
-        index: ConductorIndex::Mirror,
-        roughness: Some(roughness),
-        specular_reflectance: white,
-    });
+    let metal = sketch.rough_mirror(0.3);
     sketch.shape(rectangle(DVec3::ZERO, [4.0, 4.0], DVec3::Z), metal);
     sketch.shape(sphere(DVec3::new(0.0, 2.0, 0.5), 0.5), grey);
     let large = rectangle(DVec3::new(0.0, 3.0, 2.0), [1.0, 1.0], DVec3::new(0.0, -3.0, -2.0));

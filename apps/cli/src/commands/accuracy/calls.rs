@@ -49,9 +49,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     let info = FAMILIES.iter().find(|info| info.name == arguments.family);
     let info = info.ok_or_else(|| Failure::usage(format!("no family '{}'", arguments.family)))?;
     let family = info.family(effort);
-    let mut variants = family.variants();
+    let variants = &family.setup.variants;
     let variant = variants
-        .nth(arguments.variant)
+        .get(arguments.variant)
         .ok_or_else(|| Failure::usage(format!("no variant {}", arguments.variant)))?;
     let mut evaluations = 0;
     while evaluations < arguments.evaluations {

@@ -1,17 +1,14 @@
 //! `etendue accuracy functions`: formulas, fits and precisions.
 
-use std::io::IsTerminal;
-
 use etendue_accuracy::functions::{Effort, FAMILIES, FamilyInfo, introduction, measure, section};
 use etendue_accuracy::timing::Budget;
 use etendue_report::Report;
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use super::facts;
 use super::instructions::{Counter, Request};
 use super::report_files::ReportArguments;
 use crate::failure::{Exit, Failure};
-use crate::progress::Quiet;
+use crate::progress::{ProgressDisplay, Quiet, Standing};
 
 /// The part of a document that this writes.
 const PART: &str = "functions";
@@ -30,9 +27,8 @@ pub(crate) struct Arguments {
     /// Do not count instructions, which needs valgrind and takes most of the time.
     #[arg(long)]
     no_instructions: bool,
-    /// No progress on standard error.
-    #[arg(short, long)]
-    quiet: bool,
+    #[command(flatten)]
+    quiet: Quiet,
     #[command(flatten)]
     report: ReportArguments,
 }
@@ -46,11 +42,10 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Exit, Failure> {
         (Effort::Full, Budget::USUAL)
     };
     let counter = if arguments.no_instructions { None } else { Counter::find() };
-    let quiet = if arguments.quiet { Quiet::Yes } else { Quiet::No };
-    let progress = Steps::new(families.len(), quiet);
+    let progress = ProgressDisplay::new("measuring", arguments.quiet);
     let mut sections = Vec::with_capacity(families.len());
-    for info in families {
-        progress.start(info.title);
+    for info in &families {
+        progress.update(Standing::parts(sections.len(), families.len()));
         let family = info.family(effort);
         let count = |variant| {
             let request = Request { family: info.name, variant, effort };
@@ -88,49 +83,4 @@ fn chosen(names: &[String]) -> Result<Vec<&'static FamilyInfo>, Failure> {
     }
     let asked = |family: &&FamilyInfo| names.is_empty() || names.iter().any(|n| n == family.name);
     Ok(FAMILIES.iter().filter(asked).collect())
-}
-
-/// Which family is being measured: a bar on a terminal, a line each otherwise.
-enum Steps {
-    Nothing,
-    Bar(ProgressBar),
-    Lines,
-}
-
-impl Steps {
-    fn new(count: usize, quiet: Quiet) -> Self {
-        if quiet == Quiet::Yes {
-            return Self::Nothing;
-        }
-        if !std::io::stderr().is_terminal() {
-            return Self::Lines;
-        }
-        let target = ProgressDrawTarget::stderr();
-        let bar = ProgressBar::with_draw_target(Some(count as u64), target);
-        // The template is a constant; a bar in the default style is no reason not to measure.
-        bar.set_style(
-            ProgressStyle::with_template("{wide_bar} {pos} of {len}  {msg}")
-                .unwrap_or_else(|_| ProgressStyle::default_bar()),
-        );
-        Self::Bar(bar)
-    }
-
-    fn start(&self, title: &'static str) {
-        match self {
-            Self::Nothing => {}
-            Self::Bar(bar) => {
-                if !bar.message().is_empty() {
-                    bar.inc(1);
-                }
-                bar.set_message(title);
-            }
-            Self::Lines => eprintln!("etendue: {title}"),
-        }
-    }
-
-    fn finish(&self) {
-        if let Self::Bar(bar) = self {
-            bar.finish_and_clear();
-        }
-    }
 }

@@ -19,9 +19,8 @@ pub(crate) struct Arguments {
     /// Seed of the random numbers.
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
-    /// Print no progress.
-    #[arg(long, short)]
-    quiet: bool,
+    #[command(flatten)]
+    quiet: Quiet,
     #[command(flatten)]
     files: ReportArguments,
 }
@@ -33,8 +32,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     let files = arguments.files.check(PART)?;
     let base = if arguments.quick { Settings::quick() } else { Settings::usual() };
     let settings = Settings { models: arguments.models.clone(), seed: arguments.seed, ..base };
-    let display =
-        ProgressDisplay::new("measuring", if arguments.quiet { Quiet::Yes } else { Quiet::No });
+    let display = ProgressDisplay::new("measuring", arguments.quiet);
     let measurement = samplers::measure(&settings, &mut |finished, total| {
         display.update(Standing::parts(finished, total));
     });

@@ -47,9 +47,8 @@ pub(crate) struct Arguments {
     /// Keep every finished pair of pictures in this folder, and go on from what is there.
     #[arg(long, value_name = "FOLDER")]
     checkpoint: Option<PathBuf>,
-    /// Print no progress.
-    #[arg(long, short)]
-    quiet: bool,
+    #[command(flatten)]
+    quiet: Quiet,
     #[command(flatten)]
     files: ReportArguments,
 }
@@ -74,8 +73,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     let checkpoint =
         arguments.checkpoint.as_ref().map(open).transpose().map_err(ExperimentError::from)?;
 
-    let display =
-        ProgressDisplay::new("measuring", if arguments.quiet { Quiet::Yes } else { Quiet::No });
+    let display = ProgressDisplay::new("measuring", arguments.quiet);
     let watch = Watch {
         progress: &|now: Progress| display.update(Standing::parts(now.finished, now.total)),
         cancel: interrupt.flag(),

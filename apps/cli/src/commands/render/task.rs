@@ -63,7 +63,7 @@ impl Task {
         };
         Ok(Self {
             threads: arguments.threads.map_or(0, usize::from),
-            quiet: arguments.quiet(),
+            quiet: arguments.quiet,
             method,
             layers,
             feature_samples: limit.unwrap_or(USUAL_OF_FEATURES).min(MOST_OF_FEATURES),

@@ -7,7 +7,7 @@ use etendue_math::{Real, Vec3, Vector3};
 
 use crate::functions::domain::{Domain, linear, narrow};
 use crate::functions::family::{ErrorKind, FamilyInfo, Setup};
-use crate::functions::reference::{DoubleDouble, Effort, Reference};
+use crate::functions::reference::{DoubleDouble, Effort};
 use crate::functions::variant::{Scalar, Variant};
 
 pub(super) const INFO: FamilyInfo = FamilyInfo {
@@ -49,24 +49,16 @@ fn build(effort: Effort) -> Setup {
         place: |p: &Point| format!("n {:?}, h ({:.2e}, {:.2e})", p.exponents, p.x, p.y),
         probes: Vec::new(),
     });
-    let compute = {
-        let domain = Rc::clone(&domain);
-        move || Reference { values: domain.values(exact), ..Reference::default() }
-    };
-    let mut others = forms::<f64>(&domain);
-    let first = others.remove(0);
-    others.extend(forms::<f32>(&domain));
     Setup {
         quantity: "density p(h) of half vectors per steradian",
         judged_by: ErrorKind::RmsRelative,
-        exact: first,
+        variants: forms::<f64>(&domain).into_iter().chain(forms::<f32>(&domain)).collect(),
         // A logarithm, an exponential and a dozen roundings.
         bound: 4e-15,
-        others,
         ground: Box::new(Rc::clone(&domain)),
         reference: "the published formula in arithmetic of 106 bits, of the vector with the given coordinates in the tangent \
                     plane",
-        compute: Box::new(compute),
+        compute: domain.reference(exact),
         prose: vec![
             "Half vectors are given by their coordinates in the tangent plane, exactly; the third is rounded in the \
              precision of the variant, as it is in a renderer. The stable form computes in double precision in either case.",

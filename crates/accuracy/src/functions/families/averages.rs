@@ -13,7 +13,7 @@ use etendue_math::quadrature::gauss_legendre;
 use super::metals::{metals, reflectance};
 use crate::functions::domain::{Domain, linear, narrow};
 use crate::functions::family::{ErrorKind, FamilyInfo, Setup};
-use crate::functions::reference::{DoubleDouble, Effort, Reference};
+use crate::functions::reference::{DoubleDouble, Effort};
 use crate::functions::variant::{Scalar, Variant};
 
 pub(super) const OUTSIDE: FamilyInfo = FamilyInfo {
@@ -70,23 +70,18 @@ fn dielectric_family(side: Side, effort: Effort, words: &str, advice: &'static s
         place: |eta: &f64| format!("η {eta:.3}"),
         probes: Vec::new(),
     });
-    let compute = {
-        let domain = Rc::clone(&domain);
-        move || Reference { values: domain.values(|&eta| exact(eta)), ..Reference::default() }
-    };
-    let mut others = dielectric_forms::<f64>(&domain, side);
-    let exact = others.remove(0);
-    others.extend(dielectric_forms::<f32>(&domain, side));
     Setup {
         quantity: QUANTITY,
         judged_by: ErrorKind::RmsRelative,
-        exact,
+        variants: dielectric_forms::<f64>(&domain, side)
+            .into_iter()
+            .chain(dielectric_forms::<f32>(&domain, side))
+            .collect(),
         // What the audit allows the quadrature.
         bound: 1e-10,
-        others,
         ground: Box::new(Rc::clone(&domain)),
         reference: "the closed form of Walsh (1926) in arithmetic of 106 bits",
-        compute: Box::new(compute),
+        compute: domain.reference(|&eta| exact(eta)),
         prose: vec![
             "The quadrature computes in double precision whatever the type of its argument.",
         ],
@@ -144,29 +139,22 @@ fn conductor_family(effort: Effort) -> Setup {
         place: |[eta, k]: &[f64; 2]| format!("η {eta:.3}, k {k:.2}"),
         probes: Vec::new(),
     });
-    let compute = {
-        let domain = Rc::clone(&domain);
-        move || {
-            let rule = gauss_legendre::<f64, 96>();
-            // c = t², where F is steepest.
-            let term = |index, (t, w): (f64, f64)| 4.0 * w * t * t * t * reflectance(t * t, index);
-            let average = |&index: &[f64; 2]| rule.iter().map(|&node| term(index, node)).sum();
-            Reference { values: domain.values(average), ..Reference::default() }
-        }
-    };
-    let mut others = conductor_forms::<f64>(&domain);
-    let exact = others.remove(0);
-    others.extend(conductor_forms::<f32>(&domain));
+    let rule = gauss_legendre::<f64, 96>();
+    // c = t², where F is steepest.
+    let term = |index, (t, w): (f64, f64)| 4.0 * w * t * t * t * reflectance(t * t, index);
+    let average = move |&index: &[f64; 2]| rule.iter().map(|&node| term(index, node)).sum();
     Setup {
         quantity: QUANTITY,
         judged_by: ErrorKind::RmsRelative,
-        exact,
+        variants: conductor_forms::<f64>(&domain)
+            .into_iter()
+            .chain(conductor_forms::<f32>(&domain))
+            .collect(),
         // What the model's documentation promises for metals.
         bound: 1e-12,
-        others,
         ground: Box::new(Rc::clone(&domain)),
         reference: "quadrature with twice as many nodes, of the textbook's equations in arithmetic of 106 bits",
-        compute: Box::new(compute),
+        compute: domain.reference(average),
         prose: vec![
             "The fit is given reflectivity and edge tint, limited to 1, Schlick's average the reflectance at normal incidence, \
              that of F82 also the one at 82°.",

@@ -8,7 +8,7 @@ use etendue_math::Vector3;
 use super::directions::{Pair, albedo_probe, models, pairs};
 use crate::functions::domain::Domain;
 use crate::functions::family::{ErrorKind, FamilyInfo, Setup};
-use crate::functions::reference::{DoubleDouble, Effort, Reference};
+use crate::functions::reference::{DoubleDouble, Effort};
 use crate::functions::variant::{Scalar, Variant};
 
 pub(super) const INFO: FamilyInfo =
@@ -34,26 +34,15 @@ fn build(effort: Effort) -> Setup {
         place: |pair: &Pair| format!("roughness {}, {}", ROUGHNESS[pair.case], pair.words()),
         probes: cases.flat_map(probe).collect(),
     });
-    let compute = {
-        let domain = Rc::clone(&domain);
-        move || {
-            let (values, energies) = (domain.values(exact), domain.energies(exact));
-            Reference { values, energies, uncertainty: None }
-        }
-    };
-    let mut others = forms::<f64>(&domain);
-    let first = others.remove(0);
-    others.extend(forms::<f32>(&domain));
     Setup {
         quantity: "scattering function f(wo, wi) of a white surface in sr⁻¹",
         judged_by: ErrorKind::RmsRelative,
-        exact: first,
+        variants: forms::<f64>(&domain).into_iter().chain(forms::<f32>(&domain)).collect(),
         // Directions have length 1 to the last digit only; a dozen roundings.
         bound: 2e-15,
-        others,
         ground: Box::new(Rc::clone(&domain)),
         reference: "the published formula in arithmetic of 106 bits",
-        compute: Box::new(compute),
+        compute: domain.reference(exact),
         prose: vec![
             "The literal form normalises the half vector, takes its angle to the light and raises complements of cosines to \
              the fifth power by `powf`; the stable one takes the square of that angle's cosine from the length of the sum \

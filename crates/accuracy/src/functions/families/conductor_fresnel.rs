@@ -12,7 +12,7 @@ use etendue_math::quadrature::gauss_legendre;
 use super::metals::{metals, reflectance};
 use crate::functions::domain::{Domain, Probe, linear, narrow};
 use crate::functions::family::{ErrorKind, FamilyInfo, Setup};
-use crate::functions::reference::{Effort, Reference};
+use crate::functions::reference::Effort;
 use crate::functions::variant::{Scalar, Variant};
 
 pub(super) const INFO: FamilyInfo =
@@ -41,27 +41,15 @@ fn build(effort: Effort) -> Setup {
         place: |p: &Point| format!("cos θ = {:.3}, η {:.3}, k {:.2}", p.cos, p.eta, p.k),
         probes: metals.iter().copied().map(average).collect(),
     });
-    let compute = {
-        let domain = Rc::clone(&domain);
-        move || {
-            let exact = |p: &Point| reflectance(p.cos, [p.eta, p.k]);
-            let (values, energies) = (domain.values(exact), domain.energies(exact));
-            Reference { values, energies, uncertainty: None }
-        }
-    };
-    let mut others = forms::<f64>(&domain);
-    let exact = others.remove(0);
-    others.extend(forms::<f32>(&domain));
     Setup {
         quantity: "unpolarised reflectance F(cos θ, η + ik)",
         judged_by: ErrorKind::RmsRelative,
-        exact,
+        variants: forms::<f64>(&domain).into_iter().chain(forms::<f32>(&domain)).collect(),
         // The textbook's equations in 106 bits; some ten roundings.
         bound: 1e-15,
-        others,
         ground: Box::new(Rc::clone(&domain)),
         reference: "the textbook's equations in arithmetic of 106 bits",
-        compute: Box::new(compute),
+        compute: domain.reference(|p: &Point| reflectance(p.cos, [p.eta, p.k])),
         prose: vec![
             "Schlick's polynomial is given the reflectance at normal incidence, F82 that and the one at 82°. The artistic form \
              is the exact one, of an index that is computed from reflectivity and edge tint at every evaluation; where η is \

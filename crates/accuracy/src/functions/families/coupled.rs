@@ -11,7 +11,7 @@ use super::dielectric_fresnel::reflectance;
 use super::directions::{Pair, albedo_probe, models, pairs};
 use crate::functions::domain::{Domain, linear};
 use crate::functions::family::{ErrorKind, FamilyInfo, Setup};
-use crate::functions::reference::{DoubleDouble, Effort, Reference};
+use crate::functions::reference::{DoubleDouble, Effort};
 use crate::functions::variant::{Scalar, Variant};
 
 pub(super) const INFO: FamilyInfo =
@@ -32,26 +32,15 @@ fn build(effort: Effort) -> Setup {
         place: |pair: &Pair| format!("η {}, {}", INDICES[pair.case], pair.words()),
         probes: cases.flat_map(probe).collect(),
     });
-    let compute = {
-        let domain = Rc::clone(&domain);
-        move || {
-            let (values, energies) = (domain.values(exact), domain.energies(exact));
-            Reference { values, energies, uncertainty: None }
-        }
-    };
-    let mut others = forms::<f64>(&domain);
-    let first = others.remove(0);
-    others.extend(forms::<f32>(&domain));
     Setup {
         quantity: "matte term f(wo, wi) = k (1 − F(θo)) (1 − F(θi)) in sr⁻¹",
         judged_by: ErrorKind::RmsRelative,
-        exact: first,
+        variants: forms::<f64>(&domain).into_iter().chain(forms::<f32>(&domain)).collect(),
         // k comes from a quadrature good to 1e-10.
         bound: 1e-10,
-        others,
         ground: Box::new(Rc::clone(&domain)),
         reference: "the model with Fresnel's F, and with k from the closed form of its average, in arithmetic of 106 bits",
-        compute: Box::new(compute),
+        compute: domain.reference(exact),
         prose: vec![
             "Exact F and k: Fresnel's equations and the k that belongs to them. Schlick's F and k: the published model. Exact F, \
              Schlick's k: what comes of replacing one and not the other.",

@@ -9,7 +9,7 @@ use etendue_math::quadrature::gauss_legendre;
 
 use crate::functions::domain::{Domain, Probe, linear, logarithmic, narrow};
 use crate::functions::family::{ErrorKind, FamilyInfo, Setup};
-use crate::functions::reference::{DoubleDouble, Effort, Reference};
+use crate::functions::reference::{DoubleDouble, Effort};
 use crate::functions::variant::{Scalar, Variant};
 
 /// Glass, water, plastics, gems.
@@ -96,32 +96,21 @@ fn build(
         place: |p| format!("cos θ = {:.3}, η − 1 = {:.3e}", p.cos, p.eta - 1.0),
         probes: indices.iter().copied().map(average).collect(),
     });
-    let compute = {
-        let domain = Rc::clone(&domain);
-        move || Reference {
-            values: domain.values(|p| textbook(p.cos, p.eta)),
-            energies: domain.energies(|p| textbook(p.cos, p.eta)),
-            uncertainty: None,
-        }
-    };
-    let mut others = exact_forms::<f32>(&domain);
-    let mut all = exact_forms::<f64>(&domain);
-    let exact = all.remove(0);
-    others.extend(all);
+    let mut variants = exact_forms::<f64>(&domain);
+    variants.extend(exact_forms::<f32>(&domain));
     if schlick == Schlick::Yes {
-        others.extend(schlick_forms::<f64>(&domain));
-        others.extend(schlick_forms::<f32>(&domain));
+        variants.extend(schlick_forms::<f64>(&domain));
+        variants.extend(schlick_forms::<f32>(&domain));
     }
     Setup {
         quantity: "unpolarised reflectance F(cos θ, η)",
         judged_by: ErrorKind::RmsRelative,
-        exact,
+        variants,
         // The inputs are exact: what is left are roundings, amplified fourfold towards Brewster's angle of one polarisation.
         bound: 1e-15,
-        others,
         ground: Box::new(Rc::clone(&domain)),
         reference: "the textbook's equations in arithmetic of 106 bits",
-        compute: Box::new(compute),
+        compute: domain.reference(|p| textbook(p.cos, p.eta)),
         prose,
         advice,
     }

@@ -4,7 +4,7 @@ use std::rc::Rc;
 
 use crate::functions::domain::{Domain, linear, logarithmic, narrow};
 use crate::functions::family::{ErrorKind, FamilyInfo, Setup};
-use crate::functions::reference::{DoubleDouble, Reference};
+use crate::functions::reference::DoubleDouble;
 use crate::functions::variant::Variant;
 
 pub(super) const SIN: FamilyInfo = FamilyInfo {
@@ -109,13 +109,6 @@ fn setup(
         },
         probes: Vec::new(),
     });
-    let compute = {
-        let domain = Rc::clone(&domain);
-        move || {
-            let values = domain.values(|point| exact(point.map(DoubleDouble::from)).to_f64());
-            Reference { values, ..Reference::default() }
-        }
-    };
     let wide = |name, f: fn([f64; 2]) -> f64| {
         Variant::new(name, &domain, |&p: &[f64; 2]| p, move |&p| f(p))
     };
@@ -125,17 +118,17 @@ fn setup(
     Setup {
         quantity: function.quantity,
         judged_by: ErrorKind::RmsRelative,
-        exact: wide("std", function.std_f64),
-        // An ulp.
-        bound: 2.3e-16,
-        others: vec![
+        variants: vec![
+            wide("std", function.std_f64),
             wide("libm", function.libm_f64),
             single("std", function.std_f32),
             single("libm", function.libm_f32),
         ],
+        // An ulp.
+        bound: 2.3e-16,
         ground: Box::new(Rc::clone(&domain)),
         reference: "series in arithmetic of 106 bits",
-        compute: Box::new(compute),
+        compute: domain.reference(move |point| exact(point.map(DoubleDouble::from)).to_f64()),
         prose: vec!["Each is called through a pointer, which costs all of them the same."],
         advice: "Both backends are within an ulp; they differ in what they promise, and in speed, for the most part in \
                  favour of `std`. `std`, the platform's, where time counts. `libm` where the bits of a picture must be \

@@ -6,11 +6,11 @@ use etendue_brdf::microfacet::walk::ConductorWalk;
 use etendue_brdf::{
     Alpha, Bsdf, ComplexIor, KullaContyConductor, Microfacets, RoughConductor, TurquinConductor,
 };
-use etendue_math::Vec3;
+use etendue_math::glam::DVec3;
 use etendue_sampling::{Pcg32, uniform};
 
-use super::directions::{Pair, albedo_probe, direction, models, pairs};
-use super::monte_carlo::{Mean, reference};
+use super::directions::{Pair, albedo_probe, models, pairs};
+use super::monte_carlo::{self, AZIMUTHS, Mean, POLAR, VIEWS, WORDS};
 use crate::functions::domain::Domain;
 use crate::functions::family::{ErrorKind, FamilyInfo, Setup};
 use crate::functions::reference::Effort;
@@ -28,9 +28,6 @@ const MATERIALS: [(f64, [f64; 2]); 6] = [
     (0.6, [1.4, 1.6]),
     (1.0, [1.4, 1.6]),
 ];
-const POLAR: [f64; 4] = [10.0, 35.0, 60.0, 80.0];
-const AZIMUTHS: [f64; 4] = [0.0, 60.0, 120.0, 180.0];
-const VIEWS: [f64; 3] = [20.0, 50.0, 80.0];
 
 fn material(case: usize) -> String {
     let (alpha, [eta, k]) = MATERIALS[case];
@@ -49,43 +46,29 @@ fn build(effort: Effort) -> Setup {
     let views = effort.choose(&VIEWS[..], &VIEWS[1..2]);
     let probe = |case| views.iter().map(move |&t| albedo_probe::<48>(case, &material(case), t));
     let domain = Rc::new(Domain {
-        words: "GGX facets with α 0.3, 0.6 and 1, which reflect everything or have the index 1.4 + 1.6i; polar angles of viewer \
-                and light 10°, 35°, 60° and 80°, azimuths between them from 0° to 180° in steps of 60°"
-            .to_owned(),
+        words: format!(
+            "GGX facets with α 0.3, 0.6 and 1, which reflect everything or have the index 1.4 + 1.6i; {WORDS}"
+        ),
         points: cases.clone().flat_map(|case| pairs(case, polar, &AZIMUTHS)).collect(),
         place: |pair: &Pair| format!("{}, {}", material(pair.case), pair.words()),
-        probes: cases.clone().flat_map(probe).collect(),
+        probes: cases.flat_map(probe).collect(),
     });
-    let compute = {
-        let domain = Rc::clone(&domain);
-        let views: Vec<(usize, f64)> =
-            cases.flat_map(|case| views.iter().map(move |&theta| (case, theta))).collect();
-        move || {
-            let values = domain
-                .points
-                .iter()
-                .enumerate()
-                .map(|(i, pair)| value(pair, i as u64, effort.choose(32_768, 128)));
-            let energies = views.iter().enumerate().map(|(i, &(case, theta))| {
-                albedo(case, theta, i as u64, effort.choose(60_000, 1000))
-            });
-            reference(values.collect(), energies.collect())
-        }
-    };
-    let mut others = forms::<f64>(&domain);
-    let exact = others.remove(0);
-    others.extend(forms::<f32>(&domain));
+    let (paths, albedo_paths) = (effort.choose(32_768, 128), effort.choose(60_000, 1000));
+    let compute = monte_carlo::reference(
+        &domain,
+        move |pair, address| value(pair, address, paths),
+        move |case, wo, address| albedo(case, wo, address, albedo_paths),
+    );
     Setup {
         quantity: "scattering function f(wo, wi) in sr⁻¹",
         judged_by: ErrorKind::RmsRelative,
-        exact,
+        variants: forms::<f64>(&domain).into_iter().chain(forms::<f32>(&domain)).collect(),
         // The compensating lobe is diffuse, which the walk's is not.
         bound: 0.2,
-        others,
         ground: Box::new(Rc::clone(&domain)),
         reference: "a random walk from facet to facet of the surface that Smith's model describes, its first order replaced by \
                     the closed form",
-        compute: Box::new(compute),
+        compute,
         prose: vec![
             "None is single scattering, the rough conductor by itself. The other two add what it loses: Turquin's by scaling the \
              lobe, Kulla and Conty's by a second, diffuse one.",
@@ -129,11 +112,9 @@ fn value(pair: &Pair, address: u64, samples: u32) -> Mean {
     Mean { value: single + multiple.value, ..multiple }
 }
 
-fn albedo(case: usize, theta: f64, address: u64, samples: u32) -> Mean {
+fn albedo(case: usize, wo: DVec3, address: u64, samples: u32) -> Mean {
     let (ior, facets) = metal::<f64>(case);
     let walk = ConductorWalk::<f64>::new(ior, facets);
-    let [x, y, z] = direction(theta, 0.0);
-    let wo = Vec3::<f64>::new(x, y, z);
     Mean::of((0..u64::from(samples)).map(|sample| {
         let mut rng = Pcg32::new(sample, address);
         walk.sample(wo, &mut || uniform(&mut rng)).map_or(0.0, |path| path.weight)

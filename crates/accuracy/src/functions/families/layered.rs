@@ -8,12 +8,13 @@ use etendue_brdf::{
     Lambert, Masking, Microfacets, OpticalDepth, Reflectance, RoughCoupled, RoughDielectric,
     RoughPlastic, StochasticLayers, TransmittanceTable,
 };
+use etendue_math::glam::DVec3;
 use etendue_math::quadrature::gauss_legendre;
 use etendue_math::{Vec3, Vector3};
 use etendue_sampling::{Pcg32, uniform};
 
-use super::directions::{Pair, albedo_probe, direction, models, pairs};
-use super::monte_carlo::{Mean, reference};
+use super::directions::{Pair, albedo_probe, models, pairs};
+use super::monte_carlo::{self, AZIMUTHS, Mean, POLAR, VIEWS, WORDS};
 use crate::functions::domain::Domain;
 use crate::functions::family::{ErrorKind, FamilyInfo, Setup};
 use crate::functions::reference::Effort;
@@ -25,9 +26,6 @@ pub(super) const INFO: FamilyInfo =
 /// Width of the interface and reflectance of the base.
 const MATERIALS: [(f64, f64); 4] = [(0.1, 0.2), (0.1, 0.8), (0.3, 0.2), (0.3, 0.8)];
 const ETA: f64 = 1.5;
-const POLAR: [f64; 4] = [10.0, 35.0, 60.0, 80.0];
-const AZIMUTHS: [f64; 4] = [0.0, 60.0, 120.0, 180.0];
-const VIEWS: [f64; 3] = [20.0, 50.0, 80.0];
 
 fn material(case: usize) -> String {
     let (alpha, rho) = MATERIALS[case];
@@ -41,42 +39,28 @@ fn build(effort: Effort) -> Setup {
     // Enough for the narrower lobe at grazing: 1e-3.
     let probe = |case| views.iter().map(move |&t| albedo_probe::<128>(case, &material(case), t));
     let domain = Rc::new(Domain {
-        words: "GGX interface with η 1.5 and α 0.1 and 0.3 over bases of reflectance 0.2 and 0.8; polar angles of \
-                viewer and light 10°, 35°, 60° and 80°, azimuths between them from 0° to 180° in steps of 60°"
-            .to_owned(),
+        words: format!(
+            "GGX interface with η 1.5 and α 0.1 and 0.3 over bases of reflectance 0.2 and 0.8; {WORDS}"
+        ),
         points: cases.clone().flat_map(|case| pairs(case, polar, &AZIMUTHS)).collect(),
         place: |pair: &Pair| format!("{}, {}", material(pair.case), pair.words()),
-        probes: cases.clone().flat_map(probe).collect(),
+        probes: cases.flat_map(probe).collect(),
     });
-    let compute = {
-        let domain = Rc::clone(&domain);
-        let views: Vec<(usize, f64)> =
-            cases.flat_map(|case| views.iter().map(move |&theta| (case, theta))).collect();
-        move || {
-            let values = domain
-                .points
-                .iter()
-                .enumerate()
-                .map(|(i, pair)| value(pair, i as u64, effort.choose(20_000, 300)));
-            let energies = views.iter().enumerate().map(|(i, &(case, theta))| {
-                albedo(case, theta, i as u64, effort.choose(100_000, 2000))
-            });
-            reference(values.collect(), energies.collect())
-        }
-    };
-    let mut others = forms::<f64>(&domain);
-    let exact = others.remove(0);
-    others.extend(forms::<f32>(&domain));
+    let (paths, albedo_paths) = (effort.choose(20_000, 300), effort.choose(100_000, 2000));
+    let compute = monte_carlo::reference(
+        &domain,
+        move |pair, address| value(pair, address, paths),
+        move |case, wo, address| albedo(case, wo, address, albedo_paths),
+    );
     Setup {
         quantity: "scattering function f(wo, wi) in sr⁻¹",
         judged_by: ErrorKind::RmsRelative,
-        exact,
+        variants: forms::<f64>(&domain).into_iter().chain(forms::<f32>(&domain)).collect(),
         // Light that the rough interface turns within its lobe is treated as if it went straight through.
         bound: 0.1,
-        others,
         ground: Box::new(Rc::clone(&domain)),
         reference: "light followed bounce by bounce between interface and base (position-free Monte Carlo)",
-        compute: Box::new(compute),
+        compute,
         prose: vec![
             "Plastic transmits through a table of the interface and sums the reflections back and forth below it, with the base's \
              colour at every one, or, linear, as if the base were white. Albedo scaling gives the base what the interface does \
@@ -190,10 +174,8 @@ fn value(pair: &Pair, address: u64, samples: u32) -> Mean {
     }))
 }
 
-fn albedo(case: usize, theta: f64, address: u64, samples: u32) -> Mean {
+fn albedo(case: usize, wo: DVec3, address: u64, samples: u32) -> Mean {
     let layers = layers(case);
-    let [x, y, z] = direction(theta, 0.0);
-    let wo = Vec3::<f64>::new(x, y, z);
     Mean::of((0..u64::from(samples)).map(|sample| {
         let mut rng = Pcg32::new(sample, address);
         layers.sample(wo, &mut || uniform(&mut rng)).map_or(0.0, |(_, weight)| weight)

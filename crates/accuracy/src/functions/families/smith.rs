@@ -10,7 +10,7 @@ use etendue_math::{Real, Vec3, Vector3};
 use super::directions::direction;
 use crate::functions::domain::{Domain, Probe, linear, narrow};
 use crate::functions::family::{ErrorKind, FamilyInfo, Setup};
-use crate::functions::reference::{DoubleDouble, Effort, Reference};
+use crate::functions::reference::{DoubleDouble, Effort};
 use crate::functions::variant::{Scalar, Variant};
 
 pub(super) const GGX: FamilyInfo =
@@ -57,28 +57,16 @@ fn ggx_family(effort: Effort) -> Setup {
         },
         probes: probes.collect(),
     });
-    let compute = {
-        let domain = Rc::clone(&domain);
-        move || Reference {
-            values: domain.values(height_correlated),
-            energies: domain.energies(height_correlated),
-            uncertainty: None,
-        }
-    };
-    let mut others = ggx_forms::<f64>(&domain);
-    let exact = others.remove(0);
-    others.extend(ggx_forms::<f32>(&domain));
     Setup {
         quantity: "visibility V = G2/(4 cos θo cos θi)",
         judged_by: ErrorKind::RmsRelative,
-        exact,
+        variants: ggx_forms::<f64>(&domain).into_iter().chain(ggx_forms::<f32>(&domain)).collect(),
         // A dozen roundings of positive terms.
         bound: 1e-15,
-        others,
         ground: Box::new(Rc::clone(&domain)),
         reference: "the height-correlated form in arithmetic of 106 bits: what a random walk on Smith's surface does in its \
                     first step",
-        compute: Box::new(compute),
+        compute: domain.reference(height_correlated),
         prose: vec![
             "The separable form is another model, of facets that are masked and shadowed independently; its error is its \
              distance from the height-correlated one. Energies are albedos of a surface that reflects everything at every \
@@ -159,23 +147,18 @@ fn beckmann_family(effort: Effort) -> Setup {
         place: |[cos, alpha]: &View| format!("α {alpha:.2}, cos θ {cos:.2}"),
         probes: Vec::new(),
     });
-    let compute = {
-        let domain = Rc::clone(&domain);
-        move || Reference { values: domain.values(projected_area), ..Reference::default() }
-    };
-    let mut others = beckmann_forms::<f64>(&domain);
-    let exact = others.remove(0);
-    others.extend(beckmann_forms::<f32>(&domain));
     Setup {
         quantity: "projected area σ = cos θ/G1 of the visible facets",
         judged_by: ErrorKind::RmsRelative,
-        exact,
+        variants: beckmann_forms::<f64>(&domain)
+            .into_iter()
+            .chain(beckmann_forms::<f32>(&domain))
+            .collect(),
         // The reference's own rule is good to a few 1e-15.
         bound: 1e-14,
-        others,
         ground: Box::new(Rc::clone(&domain)),
         reference: "the integral over slopes that defines it, by adaptive quadrature",
-        compute: Box::new(compute),
+        compute: domain.reference(projected_area),
         prose: vec![
             "The exact form has an error function and an exponential, Walter's fit a quotient.",
         ],
