@@ -38,12 +38,13 @@ struct Arguments {
 }
 
 /// What of the workspace the audit is built from.
-const COPIED: [&str; 7] = [
+const COPIED: [&str; 8] = [
     "Cargo.toml",
     "Cargo.lock",
     "crates/math",
     "crates/sampling",
     "crates/brdf",
+    "crates/report",
     "crates/specimens",
     "apps/audit",
 ];
@@ -297,4 +298,21 @@ fn mirror(from: &Path, to: &Path) -> io::Result<()> {
 
 fn remove(path: &Path) -> io::Result<()> {
     if path.is_dir() { fs::remove_dir_all(path) } else { fs::remove_file(path) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::COPIED;
+
+    #[test]
+    fn what_the_audit_depends_on_is_copied() {
+        let manifest = include_str!("../../Cargo.toml");
+        let crates = manifest.lines().filter_map(|line| line.strip_prefix("etendue-"));
+        let mut count = 0;
+        for name in crates.filter_map(|line| line.split_once(" = ")).map(|(name, _)| name) {
+            assert!(COPIED.contains(&format!("crates/{name}").as_str()), "{name}");
+            count += 1;
+        }
+        assert!(count >= 4, "{count}");
+    }
 }
