@@ -19,7 +19,7 @@ fn compare(image: &Picture, reference: &Picture, arguments: &[&str]) -> (Folder,
 
 #[test]
 fn the_figures_are_those_of_their_formulas() {
-    let (_, outcome) = compare(&grey(&[1.0, 0.0]), &grey(&[2.0, 0.5]), &["--json"]);
+    let (_, outcome) = compare(&grey(&[1.0, 0.0]), &grey(&[2.0, 0.5]), &["--json", "--flip"]);
     assert_eq!(outcome.exit, Some(0), "{}", outcome.stderr);
     let json = outcome.json();
     let figure = |name: &str| json[name].as_f64().unwrap_or_else(|| panic!("{name} in {json}"));
@@ -28,6 +28,8 @@ fn the_figures_are_those_of_their_formulas() {
     assert_eq!(figure("mean_difference"), -1.5 / 2.5);
     assert_eq!(figure("max_difference"), 1.0);
     assert_eq!(figure("non_finite_pixels"), 0.0);
+    // Its values are those of a test of the renderer.
+    assert!(figure("flip") > 0.1 && figure("flip") < 1.0, "{json}");
     // A few roundings in f64.
     let relative = f64::midpoint(1.0 / (4.0 + 0.01), 0.25 / (0.25 + 0.01));
     assert!((figure("rel_mse") - relative).abs() < 1e-15, "{json}");
@@ -38,9 +40,9 @@ fn the_figures_are_those_of_their_formulas() {
 #[test]
 fn equal_pictures_have_no_difference_and_no_psnr() {
     let picture = grey(&[0.0, 0.5, 7.0]);
-    let (_, outcome) = compare(&picture, &picture, &["--json"]);
+    let (_, outcome) = compare(&picture, &picture, &["--json", "--flip"]);
     let json = outcome.json();
-    for name in ["mse", "rel_mse", "mean_difference", "max_difference"] {
+    for name in ["mse", "rel_mse", "mean_difference", "max_difference", "flip"] {
         assert_eq!(json[name].as_f64(), Some(0.0), "{name}");
     }
     assert!(json["psnr"].is_null(), "an infinite ratio is null in JSON: {json}");
@@ -48,7 +50,7 @@ fn equal_pictures_have_no_difference_and_no_psnr() {
 
 #[test]
 fn the_text_names_every_figure() {
-    let (_, outcome) = compare(&grey(&[1.5]), &grey(&[1.0]), &[]);
+    let (_, outcome) = compare(&grey(&[1.5]), &grey(&[1.0]), &["--flip"]);
     assert_eq!(outcome.exit, Some(0), "{}", outcome.stderr);
     for line in [
         "MSE              2.5",
@@ -56,6 +58,7 @@ fn the_text_names_every_figure() {
         "PSNR             6.02 dB",
         "mean difference  +50.0000 %",
         "max difference   5.0",
+        "ꟻLIP             0.",
     ] {
         assert!(outcome.stdout.contains(line), "{line:?} in\n{}", outcome.stdout);
     }

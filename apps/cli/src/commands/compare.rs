@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use etendue_renderer::Image;
-use etendue_renderer::image_metrics::{self, Comparison};
+use etendue_renderer::image_metrics::{self, Comparison, SizeMismatch, flip};
 use etendue_scene::Color;
 use etendue_scene::load::{self, load_image};
 use serde_json::json;
@@ -22,6 +22,10 @@ pub(crate) struct Arguments {
     /// reference, blue where it is darker.
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
+    /// Print ꟻLIP too, which takes ten seconds per million pixels: the difference, from 0 to 1, that an observer sees who flips
+    /// between the two; the largest over exposures if one of them holds radiance (EXR, HDR, PFM).
+    #[arg(long)]
+    flip: bool,
     /// Print one line of JSON.
     #[arg(long)]
     json: bool,
@@ -36,10 +40,12 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Exit, Failure> {
         Failure::usage(format!("{a} and {b}: {error}"))
     };
     let comparison = image_metrics::compare(&image, &reference).map_err(mismatch)?;
+    let flip = arguments.flip.then(|| arguments.flip_of(&image, &reference)).transpose();
+    let flip = flip.map_err(mismatch)?;
     if arguments.json {
-        println!("{}", as_json(&comparison));
+        println!("{}", as_json(&comparison, flip));
     } else {
-        print(&comparison);
+        print(&comparison, flip);
     }
     if let Some(output) = output {
         let picture = image_metrics::difference_picture(&image, &reference).map_err(mismatch)?;
@@ -49,12 +55,15 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     Ok(Exit::Done)
 }
 
-fn print(comparison: &Comparison) {
+fn print(comparison: &Comparison, flip: Option<f64>) {
     println!("MSE              {:.6e}", comparison.mse);
     println!("relMSE           {:.6e}", comparison.relative_mse);
     println!("PSNR             {:.2} dB", comparison.psnr);
     println!("mean difference  {:+.4} %", 100.0 * comparison.mean_difference);
     println!("max difference   {:.6e}", comparison.max_difference);
+    if let Some(flip) = flip {
+        println!("ꟻLIP             {flip:.6}");
+    }
     if comparison.non_finite_pixels > 0 {
         println!(
             "non-finite       {} pixels, left out of the figures",
@@ -63,14 +72,29 @@ fn print(comparison: &Comparison) {
     }
 }
 
-/// JSON has no infinity: the PSNR of equal pictures is null.
-fn as_json(comparison: &Comparison) -> serde_json::Value {
+impl Arguments {
+    fn flip_of(&self, image: &Image, reference: &Image) -> Result<f64, SizeMismatch> {
+        let radiance = holds_radiance(&self.image) || holds_radiance(&self.reference);
+        let differences = if radiance { flip::hdr } else { flip::ldr };
+        Ok(flip::mean(&differences(image, reference)?))
+    }
+}
+
+/// Whether a file holds radiance and not what a screen shows, as its extension tells.
+fn holds_radiance(path: &Path) -> bool {
+    path.extension()
+        .is_some_and(|e| ["exr", "hdr", "pfm"].iter().any(|r| e.eq_ignore_ascii_case(r)))
+}
+
+/// JSON has no infinity: the PSNR of equal pictures is null, as is a ꟻLIP that nobody asked for.
+fn as_json(comparison: &Comparison, flip: Option<f64>) -> serde_json::Value {
     json!({
         "mse": comparison.mse,
         "rel_mse": comparison.relative_mse,
         "psnr": comparison.psnr.is_finite().then_some(comparison.psnr),
         "mean_difference": comparison.mean_difference,
         "max_difference": comparison.max_difference,
+        "flip": flip,
         "non_finite_pixels": comparison.non_finite_pixels,
     })
 }
