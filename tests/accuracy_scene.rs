@@ -60,7 +60,9 @@ fn a_scene_has_a_row_for_every_variant_and_level_in_every_kind_of_file() {
     assert_eq!(rows("bias").len(), variants);
     // 1, 2 and 4 samples.
     assert_eq!(rows("levels").len(), 3 * variants);
-    assert!(rows("bias").iter().any(|row| row["variant"] == "Oren–Nayar, qualitative"));
+    for form in ["Oren–Nayar, qualitative", "Lambert for Oren–Nayar"] {
+        assert!(rows("bias").iter().any(|row| row["variant"] == form), "{form}");
+    }
     for name in ["a.csv", "a.svg", "a.html"] {
         let text = folder.read(name);
         assert!(text.contains("BSDF only"), "{name}");

@@ -10,6 +10,8 @@ pub enum Form {
     OrenNayarFull,
     /// Their simplification.
     OrenNayarQualitative,
+    /// Lambert's reflector in its place.
+    OrenNayarLambert,
     /// Facets of metal and glass that hide each other by their common height.
     MaskingCorrelated,
     /// Facets that hide each other independently.
@@ -26,9 +28,10 @@ pub enum Form {
 
 impl Form {
     /// All of them.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 9] = [
         Self::OrenNayarFull,
         Self::OrenNayarQualitative,
+        Self::OrenNayarLambert,
         Self::MaskingCorrelated,
         Self::MaskingSeparable,
         Self::BeckmannExact,
@@ -42,6 +45,7 @@ impl Form {
         match self {
             Self::OrenNayarFull => "Oren–Nayar, full",
             Self::OrenNayarQualitative => "Oren–Nayar, qualitative",
+            Self::OrenNayarLambert => "Lambert for Oren–Nayar",
             Self::MaskingCorrelated => "masking, correlated",
             Self::MaskingSeparable => "masking, separable",
             Self::BeckmannExact => "Beckmann's Λ, exact",
@@ -72,6 +76,11 @@ impl Form {
 
     /// The material in this form; `None` where it is so already or has no such choice.
     fn of(self, material: &Material) -> Option<Material> {
+        if let (Self::OrenNayarLambert, &Material::RoughDiffuse { reflectance, .. }) =
+            (self, material)
+        {
+            return Some(Material::Diffuse { reflectance });
+        }
         let mut changed = material.clone();
         let is_new = match &mut changed {
             Material::RoughDiffuse { form, .. } => match self {
