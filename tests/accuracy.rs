@@ -80,6 +80,16 @@ fn an_unknown_family_is_an_error_that_names_the_known_ones() {
 }
 
 #[test]
+fn two_outputs_into_one_file_are_refused_before_anything_is_measured() {
+    let folder = Folder::new();
+    let files = ["--json", "r.txt", "--csv", "r.txt"];
+    let outcome = folder.run(&[&["accuracy", "functions"], &files[..]].concat());
+    assert_eq!(outcome.exit, Some(2));
+    assert_eq!(outcome.errors(), ["etendue: error: --json and --csv both name r.txt"]);
+    assert!(folder.names().is_empty());
+}
+
+#[test]
 fn a_document_without_the_part_is_refused_before_anything_is_measured() {
     let folder = Folder::new();
     folder.write("doc.md", "nothing\n");

@@ -83,6 +83,11 @@ fn a_checkpoint_is_gone_on_from_and_that_of_another_experiment_refused() {
     let other = run(&folder, &["--checkpoint", "kept", "--seed", "2"]);
     assert_eq!(other.exit, Some(4));
     assert!(other.errors()[0].contains("seed is 1 there and 2 now"), "{}", other.stderr);
+    let file = run(&folder, &["--checkpoint", "scene.xml"]);
+    assert_eq!(
+        (file.exit, file.errors()),
+        (Some(4), vec!["etendue: error: scene.xml: not a directory"])
+    );
 }
 
 #[test]

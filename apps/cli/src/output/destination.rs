@@ -23,6 +23,11 @@ impl Destination {
             return Err(Failure::write(path, "the file is read-only"));
         }
         let destination = Self { path: path.to_path_buf() };
+        let folder = destination.folder();
+        if !folder.is_dir() {
+            let message = format!("{} is not a folder; create it first", folder.display());
+            return Err(Failure::write(path, message));
+        }
         destination.temporary()?;
         Ok(destination)
     }
@@ -42,11 +47,14 @@ impl Destination {
         Ok(())
     }
 
-    fn temporary(&self) -> Result<NamedTempFile, Failure> {
-        let directory = match self.path.parent() {
+    fn folder(&self) -> &Path {
+        match self.path.parent() {
             Some(parent) if !parent.as_os_str().is_empty() => parent,
             _ => Path::new("."),
-        };
+        }
+    }
+
+    fn temporary(&self) -> Result<NamedTempFile, Failure> {
         let mut builder = tempfile::Builder::new();
         builder.prefix(".etendue-").suffix(".tmp");
         #[cfg(unix)]
@@ -55,6 +63,6 @@ impl Destination {
             // Temporary files are private by default; a picture is an ordinary file. The umask still applies.
             builder.permissions(std::fs::Permissions::from_mode(0o666));
         }
-        builder.tempfile_in(directory).map_err(|error| Failure::write(&self.path, error))
+        builder.tempfile_in(self.folder()).map_err(|error| Failure::write(&self.path, error))
     }
 }

@@ -65,6 +65,9 @@ impl Checkpoint {
     /// Files that cannot be read or written, or hold the records of another experiment: one under other
     /// `circumstances`.
     pub fn open(folder: &Path, circumstances: Map<String, Value>) -> Result<Self, CheckpointError> {
+        if folder.exists() && !folder.is_dir() {
+            return Err(io_error(folder, io::ErrorKind::NotADirectory.into()));
+        }
         fs::create_dir_all(folder).map_err(|error| io_error(folder, error))?;
         let path = folder.join(EXPERIMENT);
         let state = match fs::read_to_string(&path) {

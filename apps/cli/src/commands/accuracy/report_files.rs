@@ -46,6 +46,7 @@ struct Document {
 impl ReportArguments {
     /// Checks every file; `part` is the name of the experiment in the document.
     pub(crate) fn check(&self, part: &str) -> Result<ReportFiles, Failure> {
+        self.check_names()?;
         let check = |path: &Option<PathBuf>| path.as_deref().map(Destination::check).transpose();
         Ok(ReportFiles {
             json: check(&self.json)?,
@@ -58,6 +59,25 @@ impl ReportArguments {
                 .map(|path| Document::open(path, part))
                 .transpose()?,
         })
+    }
+
+    /// Two outputs into one file would leave the second.
+    fn check_names(&self) -> Result<(), Failure> {
+        let files = [
+            ("--json", &self.json),
+            ("--csv", &self.csv),
+            ("--svg", &self.svg),
+            ("--html", &self.html),
+            ("--markdown", &self.markdown),
+        ];
+        for (i, (option, path)) in files.iter().enumerate() {
+            let same = |(_, other): &&(&str, &Option<PathBuf>)| path.is_some() && other == path;
+            if let (Some((other, _)), Some(path)) = (files[..i].iter().find(same), path) {
+                let path = path.display();
+                return Err(Failure::usage(format!("{other} and {option} both name {path}")));
+            }
+        }
+        Ok(())
     }
 }
 
