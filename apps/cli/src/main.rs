@@ -21,7 +21,7 @@ mod memory;
 mod output;
 mod progress;
 
-use commands::{accuracy, brdf, compare, info, render};
+use commands::{accuracy, brdf, compare, effects, info, render};
 use failure::{Exit, Failure};
 
 /// Renders Mitsuba scenes and bare meshes, exactly and fast.
@@ -35,6 +35,7 @@ struct Arguments {
 #[derive(Debug, Subcommand)]
 enum Command {
     Render(render::Arguments),
+    Effects(effects::Arguments),
     Info(info::Arguments),
     Compare(compare::Arguments),
     Brdf(brdf::Arguments),
@@ -49,6 +50,7 @@ fn main() -> ExitCode {
     let arguments = Arguments::parse();
     let outcome = panic::catch_unwind(|| match &arguments.command {
         Command::Render(arguments) => render::run(arguments),
+        Command::Effects(arguments) => effects::run(arguments),
         Command::Info(arguments) => info::run(arguments),
         Command::Compare(arguments) => compare::run(arguments),
         Command::Brdf(arguments) => brdf::run(arguments),

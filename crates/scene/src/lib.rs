@@ -9,6 +9,7 @@ extern crate std;
 pub mod camera;
 #[cfg(feature = "std")]
 pub mod color;
+pub mod effect;
 pub mod film;
 pub mod geometry;
 pub mod light;
@@ -27,11 +28,12 @@ mod diagnosis;
 mod error;
 
 pub use diagnosis::Diagnosis;
+pub use effect::Effect;
 #[cfg(feature = "std")]
 pub use error::{ErrorKind, Location, SceneError, Warning};
 pub use light::{EmissionSides, Light, LightBounds, LightId, LightSample};
 #[cfg(feature = "std")]
-pub use mitsuba::{LoadOptions, LoadedScene, load_scene};
+pub use mitsuba::{LoadOptions, LoadedScene, Origin, Origins, load_scene};
 pub use scene::{PathSettings, SamplerKind, SamplingSettings, Scene, SceneParts, SurfaceInfo};
 
 /// Linear RGB in the renderer's precision.

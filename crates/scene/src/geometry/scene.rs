@@ -198,6 +198,11 @@ impl Geometry {
         &self.shapes
     }
 
+    /// How many instances of groups there are.
+    pub fn instance_count(&self) -> usize {
+        self.instances.len()
+    }
+
     /// A box that holds everything; empty for an empty scene.
     pub fn bounds(&self) -> Aabb {
         self.top.bvh.bounds()

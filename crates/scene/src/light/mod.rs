@@ -16,6 +16,7 @@ pub use point::{ConstantLight, DirectionalLight, PointLight};
 pub use spot::SpotLight;
 
 use crate::Color;
+use crate::texture::TextureId;
 
 /// Names a light of a scene by its place in the scene's list.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -49,6 +50,17 @@ impl Light {
     #[inline]
     pub fn is_delta(&self) -> bool {
         matches!(self, Self::Point(_) | Self::Spot(_) | Self::Directional(_))
+    }
+
+    /// The texture of its radiance or intensity; the map of an environment belongs to the light itself.
+    pub fn texture(&self) -> Option<TextureId> {
+        match self {
+            Self::Area(light) => Some(light.radiance),
+            Self::Spot(light) => light.texture(),
+            Self::Point(_) | Self::Directional(_) | Self::Constant(_) | Self::Environment(_) => {
+                None
+            }
+        }
     }
 }
 

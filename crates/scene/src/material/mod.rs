@@ -223,6 +223,56 @@ impl Materials {
 }
 
 impl Material {
+    /// The textures that it names itself.
+    pub fn textures(&self) -> impl Iterator<Item = TextureId> + use<> {
+        let widths = |roughness: &Option<Roughness>| match *roughness {
+            Some(Roughness { alpha_u, alpha_v, .. }) => [Some(alpha_u), Some(alpha_v)],
+            None => [None; 2],
+        };
+        let textures = match *self {
+            Self::Diffuse { reflectance } => [Some(reflectance), None, None, None, None],
+            Self::RoughDiffuse { reflectance, sigma, .. } => {
+                [Some(reflectance), Some(sigma), None, None, None]
+            }
+            Self::Dielectric {
+                ref roughness,
+                specular_reflectance,
+                specular_transmittance,
+                ..
+            } => {
+                let [u, v] = widths(roughness);
+                [Some(specular_reflectance), Some(specular_transmittance), u, v, None]
+            }
+            Self::ThinDielectric { specular_reflectance, specular_transmittance, .. } => {
+                [Some(specular_reflectance), Some(specular_transmittance), None, None, None]
+            }
+            Self::Conductor { index, ref roughness, specular_reflectance } => {
+                let [u, v] = widths(roughness);
+                let [eta, k] = match index {
+                    ConductorIndex::Mirror => [None; 2],
+                    ConductorIndex::Complex { eta, k } => [Some(eta), Some(k)],
+                };
+                [Some(specular_reflectance), u, v, eta, k]
+            }
+            Self::Plastic { diffuse_reflectance, specular_reflectance, .. } => {
+                [Some(diffuse_reflectance), Some(specular_reflectance), None, None, None]
+            }
+            Self::Mask { opacity, .. } => [Some(opacity), None, None, None, None],
+            Self::TwoSided { .. } | Self::Null => [None; 5],
+        };
+        textures.into_iter().flatten()
+    }
+
+    /// The materials that it is made of.
+    pub fn nested(&self) -> impl Iterator<Item = MaterialId> + use<> {
+        let parts = match *self {
+            Self::Mask { nested, .. } => [Some(nested), None],
+            Self::TwoSided { front, back } => [Some(front), Some(back)],
+            _ => [None; 2],
+        };
+        parts.into_iter().flatten()
+    }
+
     /// Reflects on the front and is black from behind.
     fn is_one_sided(&self) -> bool {
         match self {

@@ -2,8 +2,8 @@
 
 use alloc::vec::Vec;
 
-use super::{ConductorIndex, Material, MaterialId, Materials, PreparedBsdf, Roughness, Side};
-use crate::texture::{TextureId, Textures};
+use super::{Material, MaterialId, Materials, PreparedBsdf, Side};
+use crate::texture::Textures;
 
 /// Materials with their textures: those that are the same everywhere are prepared once, the others
 /// where they are asked for.
@@ -53,40 +53,9 @@ impl<'a> PreparedMaterials<'a> {
 
 /// Whether all textures of a material, and of those that it is made of, are constant.
 fn is_uniform(material: &Material, materials: &Materials, textures: &Textures) -> bool {
-    let constant = |ids: &[TextureId]| ids.iter().all(|&id| textures.is_constant(id));
     // A material refers to earlier ones only: this ends.
-    let nested = |id: MaterialId| {
-        materials.get(id).is_some_and(|material| is_uniform(material, materials, textures))
-    };
-    let smooth_or_constant = |roughness: &Option<Roughness>| {
-        roughness.is_none_or(|Roughness { alpha_u, alpha_v, .. }| constant(&[alpha_u, alpha_v]))
-    };
-    match material {
-        Material::Diffuse { reflectance } => constant(&[*reflectance]),
-        Material::RoughDiffuse { reflectance, sigma, .. } => constant(&[*reflectance, *sigma]),
-        Material::Dielectric {
-            roughness, specular_reflectance, specular_transmittance, ..
-        } => {
-            smooth_or_constant(roughness)
-                && constant(&[*specular_reflectance, *specular_transmittance])
-        }
-        Material::ThinDielectric { specular_reflectance, specular_transmittance, .. } => {
-            constant(&[*specular_reflectance, *specular_transmittance])
-        }
-        Material::Conductor { index, roughness, specular_reflectance } => {
-            let index = match *index {
-                ConductorIndex::Mirror => true,
-                ConductorIndex::Complex { eta, k } => constant(&[eta, k]),
-            };
-            index && smooth_or_constant(roughness) && constant(&[*specular_reflectance])
-        }
-        Material::Plastic { diffuse_reflectance, specular_reflectance, .. } => {
-            constant(&[*diffuse_reflectance, *specular_reflectance])
-        }
-        Material::Mask { opacity, nested: inner } => constant(&[*opacity]) && nested(*inner),
-        Material::TwoSided { front, back } => nested(*front) && nested(*back),
-        Material::Null => true,
-    }
+    let uniform = |id| materials.get(id).is_some_and(|part| is_uniform(part, materials, textures));
+    material.textures().all(|id| textures.is_constant(id)) && material.nested().all(uniform)
 }
 
 #[cfg(test)]

@@ -6,6 +6,7 @@ use alloc::vec::Vec;
 use std::path::PathBuf;
 
 use super::LoadOptions;
+use super::origins::Origins;
 use super::reader::PluginReader;
 use crate::geometry::{GeometryBuilder, GroupId};
 use crate::light::Light;
@@ -35,6 +36,8 @@ pub(super) struct Context<'a> {
     /// By shape.
     pub(super) surfaces: Vec<SurfaceInfo>,
     pub(super) lights: Vec<Light>,
+    /// Where what stands above is described.
+    pub(super) origins: Origins,
     /// What was translated already, since many may refer to it.
     pub(super) texture_ids: BTreeMap<NodeId, TextureId>,
     pub(super) material_ids: BTreeMap<NodeId, MaterialId>,
@@ -53,6 +56,7 @@ impl<'a> Context<'a> {
             geometry: GeometryBuilder::new(),
             surfaces: Vec::new(),
             lights: Vec::new(),
+            origins: Origins::default(),
             texture_ids: BTreeMap::new(),
             material_ids: BTreeMap::new(),
             groups: BTreeMap::new(),

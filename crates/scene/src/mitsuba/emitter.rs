@@ -9,8 +9,10 @@ use super::reader::PluginReader;
 use super::value::{Role, color_or, texture_if_given, texture_or};
 use super::{Context, Family};
 use crate::SceneError;
+use crate::effect::Element;
 use crate::light::{
-    ConstantLight, DirectionalLight, EnvironmentLight, Light, LightError, PointLight, SpotLight,
+    ConstantLight, DirectionalLight, EnvironmentLight, Light, LightError, LightId, PointLight,
+    SpotLight,
 };
 use crate::load::Encoding;
 use crate::texture::TextureId;
@@ -31,7 +33,9 @@ const SHAPE_EMITTERS: &Family<TextureId> = &[("area", area)];
 
 /// Adds the light a node describes.
 pub(super) fn add(context: &mut Context<'_>, id: NodeId) -> Result<(), SceneError> {
-    let light = context.translate(EMITTERS, context.description.node(id))?;
+    let node = context.description.node(id);
+    let light = context.translate(EMITTERS, node)?;
+    context.origins.note(Element::Light(LightId(context.lights.len() as u32)), node);
     context.lights.push(light);
     Ok(())
 }

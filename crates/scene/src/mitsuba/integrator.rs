@@ -5,6 +5,7 @@ use alloc::format;
 use super::reader::PluginReader;
 use super::{Context, Family};
 use crate::SceneError;
+use crate::effect::Element;
 use crate::scene::PathSettings;
 use crate::xml::{Kind, NodeId};
 
@@ -19,7 +20,9 @@ const INTEGRATORS: &Family<PathSettings> = &[
 
 /// The paths the integrator of a scene asks for.
 pub(super) fn translate(context: &mut Context<'_>, id: NodeId) -> Result<PathSettings, SceneError> {
-    context.translate(INTEGRATORS, context.description.node(id))
+    let node = context.description.node(id);
+    context.origins.note(Element::Paths, node);
+    context.translate(INTEGRATORS, node)
 }
 
 /// `max_depth` (−1, unlimited), `rr_depth` (5), `hide_emitters` (false), `strict_normals` (false).

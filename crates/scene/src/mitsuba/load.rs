@@ -5,6 +5,7 @@ use alloc::string::String;
 use alloc::vec::Vec;
 use std::path::{Path, PathBuf};
 
+use super::origins::Origins;
 use super::{Context, bare, scene};
 use crate::film::Crop;
 use crate::scene::{SamplerKind, Scene};
@@ -44,6 +45,8 @@ pub struct LoadedScene {
     pub warnings: Vec<Warning>,
     /// Every file that was read, the scene's own first.
     pub files: Vec<PathBuf>,
+    /// Where its parts are described.
+    pub origins: Origins,
 }
 
 /// Loads a scene file (`.xml`) or a bare mesh (`.obj`, `.ply`).

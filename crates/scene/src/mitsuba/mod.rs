@@ -21,6 +21,7 @@ mod image;
 mod integrator;
 mod ior;
 mod load;
+mod origins;
 mod reader;
 mod sampler;
 mod scene;
@@ -34,3 +35,4 @@ mod tests;
 
 use context::{Context, Family};
 pub use load::{LoadOptions, LoadedScene, load_scene};
+pub use origins::{Origin, Origins};

@@ -75,7 +75,7 @@ pub(super) fn assemble(
             SceneError::scene(file.clone(), format!("a path cannot have {depth} edges"))
         })?;
     }
-    let Context { description, surfaces, materials, textures, lights, .. } = context;
+    let Context { description, surfaces, materials, textures, lights, origins, .. } = context;
     let mut files = description.files.clone();
     files.extend(context.files);
     let mut warnings = description.warnings.clone();
@@ -92,5 +92,5 @@ pub(super) fn assemble(
         path,
     };
     let scene = Scene::new(parts).map_err(|error| SceneError::scene(file, format!("{error}")))?;
-    Ok(LoadedScene { scene, warnings, files })
+    Ok(LoadedScene { scene, warnings, files, origins })
 }

@@ -6,6 +6,7 @@ use super::reader::PluginReader;
 use super::{Context, Family, film, sampler};
 use crate::SceneError;
 use crate::camera::{Camera, FieldOfView, FovAxis, Projection};
+use crate::effect::Element;
 use crate::film::Film;
 use crate::scene::SamplingSettings;
 use crate::xml::{NodeId, parse_float};
@@ -27,7 +28,9 @@ const FAR_CLIP: f64 = 1e4;
 
 /// The sensor a node describes.
 pub(super) fn translate(context: &mut Context<'_>, id: NodeId) -> Result<Sensor, SceneError> {
-    context.translate(SENSORS, context.description.node(id))
+    let node = context.description.node(id);
+    context.origins.note(Element::Camera, node);
+    context.translate(SENSORS, node)
 }
 
 /// `fov` with `fov_axis` (x), or `focal_length` (50mm); `principal_point_offset_x`,

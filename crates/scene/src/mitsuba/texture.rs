@@ -5,6 +5,7 @@ use super::reader::PluginReader;
 use super::value::{Role, color_or, texture_or};
 use super::{Context, Family};
 use crate::SceneError;
+use crate::effect::Element;
 use crate::load::Encoding;
 use crate::texture::{Bitmap, Checkerboard, Filter, Texture, TextureId, Wrap};
 use crate::xml::NodeId;
@@ -25,6 +26,7 @@ pub(super) fn translate(context: &mut Context<'_>, id: NodeId) -> Result<Texture
     }
     let node = context.description.node(id);
     let texture = context.translate(TEXTURES, node)?;
+    context.origins.note(Element::Texture(texture), node);
     context.texture_ids.insert(id, texture);
     Ok(texture)
 }

@@ -9,6 +9,7 @@ mod roughness;
 
 use super::{Context, Family};
 use crate::SceneError;
+use crate::effect::Element;
 use crate::material::MaterialId;
 use crate::xml::NodeId;
 
@@ -35,6 +36,7 @@ pub(super) fn translate(context: &mut Context<'_>, id: NodeId) -> Result<Materia
     }
     let node = context.description.node(id);
     let material = context.translate(BSDFS, node)?;
+    context.origins.note(Element::Material(material), node);
     context.material_ids.insert(id, material);
     Ok(material)
 }

@@ -13,6 +13,7 @@ use alloc::vec::Vec;
 
 use super::{Context, Family};
 use crate::SceneError;
+use crate::effect::Element;
 use crate::geometry::{GroupId, Shape, Transform};
 use crate::light::{AreaLight, Light, LightId};
 use crate::material::MaterialId;
@@ -60,20 +61,25 @@ pub(super) fn add(context: &mut Context<'_>, id: NodeId) -> Result<(), SceneErro
         return Ok(());
     }
     match context.translate(SHAPES, node)? {
-        Item::Surface(surface) => add_surface(context, surface),
+        Item::Surface(surface) => {
+            if let Some(light) = add_surface(context, surface) {
+                context.origins.note(Element::Light(light), node);
+            }
+        }
         Item::Group(surfaces) => {
             let group = add_group(context, surfaces);
             context.groups.insert(id, group);
         }
         Item::Instance(group, transform) => {
+            context.origins.note(Element::Instances, node);
             context.geometry.add_instance(group, transform);
         }
     }
     Ok(())
 }
 
-/// Adds a shape that is seen where it stands.
-pub(super) fn add_surface(context: &mut Context<'_>, surface: Surface) {
+/// Adds a shape that is seen where it stands, and the light that it is.
+pub(super) fn add_surface(context: &mut Context<'_>, surface: Surface) -> Option<LightId> {
     let Surface { shape, material, radiance, name } = surface;
     let shape = context.geometry.add_shape(shape);
     let light = radiance.map(|radiance| {
@@ -81,6 +87,7 @@ pub(super) fn add_surface(context: &mut Context<'_>, surface: Surface) {
         LightId(context.lights.len() as u32 - 1)
     });
     context.surfaces.push(SurfaceInfo { material, light, name });
+    light
 }
 
 fn add_group(context: &mut Context<'_>, surfaces: Vec<Surface>) -> GroupId {

@@ -1,0 +1,144 @@
+//! What a scene may call for, and what it does call for.
+//!
+//! The vocabulary is closed: an [`Effect`] is something that takes code of its own, time, or random numbers, and that
+//! a scene can do without. [`Scene::effects`](crate::Scene::effects) is a pure function of what the scene refers to.
+
+mod presence;
+
+pub use presence::{Element, Presence};
+
+/// Something that is simulated only where a scene calls for it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Effect {
+    /// Light that arrives by way of other surfaces.
+    IndirectLight,
+    /// Shapes that emit.
+    AreaLight,
+    /// Light from a point.
+    PointLight,
+    /// Light from a point into a cone.
+    SpotLight,
+    /// Parallel light.
+    DirectionalLight,
+    /// The same light from everywhere.
+    ConstantBackground,
+    /// An image around the scene.
+    EnvironmentMap,
+    /// Mirrors: reflection into a single direction.
+    DeltaReflection,
+    /// Refraction into a single direction.
+    DeltaTransmission,
+    /// Reflection from microfacets.
+    RoughReflection,
+    /// Refraction by microfacets.
+    RoughTransmission,
+    /// Surfaces that are partly not there.
+    OpacityMask,
+    /// Surfaces that light does not notice.
+    PassThrough,
+    /// Images on surfaces and in lights.
+    BitmapTexture,
+    /// Two textures in squares.
+    CheckerboardTexture,
+    /// Shapes that stand in several places.
+    Instancing,
+    /// A lens with an extent, out of whose focus things blur.
+    DepthOfField,
+    /// Emitters that the camera looks through.
+    HiddenEmitters,
+    /// No light where geometric and interpolated normals disagree.
+    StrictNormals,
+}
+
+impl Effect {
+    /// The whole vocabulary.
+    pub const ALL: [Self; 19] = [
+        Self::IndirectLight,
+        Self::AreaLight,
+        Self::PointLight,
+        Self::SpotLight,
+        Self::DirectionalLight,
+        Self::ConstantBackground,
+        Self::EnvironmentMap,
+        Self::DeltaReflection,
+        Self::DeltaTransmission,
+        Self::RoughReflection,
+        Self::RoughTransmission,
+        Self::OpacityMask,
+        Self::PassThrough,
+        Self::BitmapTexture,
+        Self::CheckerboardTexture,
+        Self::Instancing,
+        Self::DepthOfField,
+        Self::HiddenEmitters,
+        Self::StrictNormals,
+    ];
+
+    /// Its name for programs: lower-case words joined by hyphens.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::IndirectLight => "indirect-light",
+            Self::AreaLight => "area-light",
+            Self::PointLight => "point-light",
+            Self::SpotLight => "spot-light",
+            Self::DirectionalLight => "directional-light",
+            Self::ConstantBackground => "constant-background",
+            Self::EnvironmentMap => "environment-map",
+            Self::DeltaReflection => "delta-reflection",
+            Self::DeltaTransmission => "delta-transmission",
+            Self::RoughReflection => "rough-reflection",
+            Self::RoughTransmission => "rough-transmission",
+            Self::OpacityMask => "opacity-mask",
+            Self::PassThrough => "pass-through",
+            Self::BitmapTexture => "bitmap-texture",
+            Self::CheckerboardTexture => "checkerboard-texture",
+            Self::Instancing => "instancing",
+            Self::DepthOfField => "depth-of-field",
+            Self::HiddenEmitters => "hidden-emitters",
+            Self::StrictNormals => "strict-normals",
+        }
+    }
+
+    /// What it costs where it is present, and from where on.
+    pub fn cost(self) -> &'static str {
+        match self {
+            Self::IndirectLight => {
+                "a ray, a light sample and its shadow ray per surface after the first"
+            }
+            Self::AreaLight => {
+                "a light sample and a shadow ray per surface met, a look at every surface whether it emits"
+            }
+            Self::PointLight | Self::SpotLight | Self::DirectionalLight => {
+                "a choice among lights, a light sample and a shadow ray per surface met"
+            }
+            Self::ConstantBackground => {
+                "a light sample and a shadow ray per surface met, a density per ray that leaves"
+            }
+            Self::EnvironmentMap => {
+                "a table of its pixels, a search in it per light sample, a look-up and a density per ray that leaves"
+            }
+            Self::DeltaReflection => {
+                "Fresnel's equations; paths grow longer, for a delta lobe takes no light sample"
+            }
+            Self::DeltaTransmission => {
+                "Fresnel's equations and a random number per surface met; paths grow longer"
+            }
+            Self::RoughReflection => {
+                "a normal sampled, a distribution and its masking evaluated twice per surface met"
+            }
+            Self::RoughTransmission => {
+                "the same with a choice between two sides, and light samples from both"
+            }
+            Self::OpacityMask => {
+                "a random number per surface met and a vertex of the path where it is not there"
+            }
+            Self::PassThrough => "a vertex of the path",
+            Self::BitmapTexture => "four texels and a model of its own per surface met",
+            Self::CheckerboardTexture => "a square found and a model of its own per surface met",
+            Self::Instancing => "a ray transformed and a second hierarchy entered per instance met",
+            Self::DepthOfField => "two random numbers and a point on the lens per sample",
+            Self::HiddenEmitters => "a further ray behind every emitter that the camera sees",
+            Self::StrictNormals => "a comparison per direction",
+        }
+    }
+}
