@@ -40,6 +40,10 @@ impl Rays for &Geometry {
 
 /// A geometry and the instructions to trace rays with.
 #[derive(Clone, Copy)]
+#[cfg_attr(
+    not(target_arch = "x86_64"),
+    expect(dead_code, reason = "elsewhere everything is compiled for the same instructions")
+)]
 struct Compiled<'a, S> {
     geometry: &'a Geometry,
     simd: S,
@@ -58,6 +62,10 @@ impl<S: Simd> Rays for Compiled<'_, S> {
 }
 
 /// A task as a kernel.
+#[cfg_attr(
+    not(target_arch = "x86_64"),
+    expect(dead_code, reason = "elsewhere everything is compiled for the same instructions")
+)]
 struct TaskKernel<'a, T> {
     geometry: &'a Geometry,
     task: T,
