@@ -87,7 +87,8 @@ pub trait Bsdf {
 
     /// Draws a direction. `u_lobe` chooses among lobes, `u` within the chosen one.
     ///
-    /// `None` where nothing is scattered: outside the domain, or where the drawn direction has weight 0.
+    /// `None` where nothing is scattered: outside the domain, where the drawn direction has weight 0, or where its density
+    /// is so small that the weight is no number.
     fn sample(
         &self,
         wo: BsdfVec<Self>,

@@ -17,6 +17,10 @@ pub(crate) fn mixture_sample<B: Bsdf>(
         return None;
     }
     let weight = f.scale(wi.z() / pdf);
+    // A density so small that nothing is ever drawn with it.
+    if !weight.is_finite() {
+        return None;
+    }
     Some(Sample { wi, weight, density: Density::Continuous(pdf), eta: BsdfReal::<B>::ONE })
 }
 

@@ -148,7 +148,13 @@ impl<C: Spectrum> Bsdf for AshikhminShirley<C> {
             (wi, f.scale(wi.z() / pdf), pdf)
         };
         let density = Density::Continuous(pdf);
-        (!weight.is_black()).then_some(Sample { wi, weight, density, eta: C::Real::ONE })
+        // Infinite where the density is so small that nothing is ever drawn with it.
+        (!weight.is_black() && weight.is_finite()).then_some(Sample {
+            wi,
+            weight,
+            density,
+            eta: C::Real::ONE,
+        })
     }
 }
 
@@ -169,7 +175,7 @@ pub(crate) const INFO: ModelInfo = ModelInfo {
 mod tests {
     use super::*;
     use crate::laws;
-    use etendue_math::glam::DVec3;
+    use etendue_math::glam::{DVec3, Vec3};
 
     fn model<T: Real + Spectrum<Real = T>>([nu, nv, rs, rd]: [f64; 4]) -> AshikhminShirley<T> {
         let [nu, nv] = [nu, nv].map(|n| Exponent::new(T::lit(n)).unwrap());
@@ -189,6 +195,16 @@ mod tests {
             }
             laws::total(&model::<f32>([1e6, 10.0, 0.04, 0.5]).with_sampling(sampling));
             laws::total(&model::<f32>([1e12, 1e12, 0.0, 0.5]).with_sampling(sampling));
+        }
+    }
+
+    #[test]
+    fn a_density_too_small_for_a_finite_weight_draws_nothing() {
+        // Found by fuzzing: the density is the smallest positive number.
+        let wo = Vec3::new(4.517586e-39, 5.51014e-40, 7.34684e-40);
+        for u_lobe in [0.0, 0.5, 0.999, 48.5] {
+            let weight = model::<f32>([1e6, 1e6, 0.5, 0.5]).sample(wo, u_lobe, [2.5784852e-9; 2]);
+            assert!(weight.is_none_or(|sample| sample.weight.is_finite()), "{weight:?}");
         }
     }
 
