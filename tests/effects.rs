@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{Folder, Outcome};
+use common::Folder;
 use serde_json::Value;
 
 const NOTHING: &str = r#"<scene version="3.0.0">
@@ -42,22 +42,22 @@ const MUCH: &str = r#"<scene version="3.0.0">
 fn effects(scene: &str) -> Vec<Value> {
     let folder = Folder::new();
     folder.write("scene.xml", scene);
-    let outcome: Outcome = folder.run(&["effects", "scene.xml", "--json"]);
+    let outcome = folder.run(&["effects", "scene.xml", "--json"]);
     assert_eq!(outcome.exit, Some(0), "{}", outcome.stderr);
     outcome.json().as_array().expect("a list").clone()
 }
 
-fn present(effects: &[Value]) -> Vec<(String, String)> {
+/// Names and reasons of those that are present.
+fn present(effects: &[Value]) -> Vec<(&str, &str)> {
     let present = effects.iter().filter(|effect| effect["present"] == true);
-    let text = |value: &Value| value.as_str().expect("text").to_owned();
+    let text = |value| Value::as_str(value).expect("text");
     present.map(|effect| (text(&effect["effect"]), text(&effect["reason"]))).collect()
 }
 
 #[test]
 fn a_plain_scene_calls_for_its_light_only() {
     let effects = effects(NOTHING);
-    let light = ("point-light".to_owned(), "emitter “point” at scene.xml:3:5".to_owned());
-    assert_eq!(present(&effects), [light]);
+    assert_eq!(present(&effects), [("point-light", "emitter “point” at scene.xml:3:5")]);
     assert!(effects.len() > 10, "absent ones are listed too");
 }
 
@@ -82,7 +82,6 @@ fn every_effect_names_the_element_that_calls_for_it() {
         ("hidden-emitters", "integrator “path” at scene.xml:2:5"),
         ("strict-normals", "integrator “path” at scene.xml:2:5"),
     ];
-    let expected = expected.map(|(effect, reason)| (effect.to_owned(), reason.to_owned()));
     assert_eq!(present(&effects), expected);
 }
 
