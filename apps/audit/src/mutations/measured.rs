@@ -48,8 +48,8 @@ pub(super) const MUTATIONS: &[Mutation] = &[
     Mutation {
         fault: "φd not brought into [0, π]: lost symmetry",
         file: "crates/brdf/src/measured/half_difference.rs",
-        find: "phi_d: if phi < 0.0 { phi + f64::PI } else { phi },",
-        replace: "phi_d: phi.abs(),",
+        find: "if turned { (-x, -y) } else { (x, y) };",
+        replace: "if turned { (x, -y) } else { (x, y) };",
         filters: &["Measured"],
     },
     Mutation {

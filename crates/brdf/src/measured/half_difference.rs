@@ -21,7 +21,7 @@ use crate::direction::{half_vector, reflect_about};
 pub(super) struct HalfDifference {
     pub(super) theta_h: f64,
     pub(super) theta_d: f64,
-    /// In `[0, π]`.
+    /// In `[0, π)` but for rounding.
     pub(super) phi_d: f64,
 }
 
@@ -38,11 +38,14 @@ impl HalfDifference {
         let (c, s) = if sin > 0.0 { (h.x / sin, h.y / sin) } else { (1.0, 0.0) };
         let x = (difference.x * c + difference.y * s) * h.z - difference.z * sin;
         let y = difference.y * c - difference.x * s;
-        let phi = Real::atan2(y, x);
+        // The opposite vector is the other order of the pair: turned before its angle is taken, not after, both
+        // orders have the same bits.
+        let turned = y < 0.0 || (y == 0.0 && x < 0.0);
+        let (x, y) = if turned { (-x, -y) } else { (x, y) };
         let coordinates = Self {
             theta_h: Real::atan2(sin, h.z),
             theta_d: Real::atan2(Vector3::length(difference) * 0.5, cos),
-            phi_d: if phi < 0.0 { phi + f64::PI } else { phi },
+            phi_d: Real::atan2(y, x),
         };
         Some((coordinates, h, cos))
     }
@@ -83,6 +86,9 @@ mod tests {
     fn exchanging_the_directions_keeps_the_coordinates() {
         let (wo, wi) = (DVec3::new(0.36, 0.48, 0.8), DVec3::new(-0.28, 0.0, 0.96));
         let (a, b) = (HalfDifference::new(wo, wi).unwrap(), HalfDifference::new(wi, wo).unwrap());
-        assert!((a.0.phi_d - b.0.phi_d).abs() < 1e-15 && a.0.theta_d == b.0.theta_d);
+        assert_eq!(a, b);
+        // In the plane of incidence, where φd is 0 or π.
+        let (wo, wi) = (DVec3::new(-0.6, 0.0, 0.8), DVec3::new(0.28, 0.0, 0.96));
+        assert_eq!(HalfDifference::new(wo, wi), HalfDifference::new(wi, wo));
     }
 }
