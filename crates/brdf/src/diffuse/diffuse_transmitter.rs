@@ -111,7 +111,8 @@ impl<C: Spectrum> Bsdf for DiffuseTransmitter<C> {
         let below = across != (wo.z() < C::Real::ZERO);
         Some(Sample {
             wi: if below { wi.flip_z() } else { wi },
-            weight: colour.scale(one / probability),
+            // At most the number of channels, where the reciprocal of the share alone might overflow.
+            weight: colour.map(|c| c / probability),
             density: Density::Continuous(pdf),
             eta: one,
         })
@@ -145,7 +146,7 @@ mod tests {
     use super::*;
     use crate::laws;
     use etendue_math::Rgb;
-    use etendue_math::glam::DVec3;
+    use etendue_math::glam::{DVec3, Vec3};
 
     fn sheet(r: f64, t: f64) -> DiffuseTransmitter<f64> {
         let [r, t] = [r, t].map(|x| Reflectance::new(x).unwrap());
@@ -178,6 +179,15 @@ mod tests {
         let pink = Reflectance::new(Rgb::new(0.2_f32, 0.1, 0.1)).unwrap();
         let error = DiffuseTransmitter::new(red, pink).unwrap_err();
         assert_eq!(error.parameter, "reflectance + transmittance");
+    }
+
+    #[test]
+    fn a_share_of_next_to_nothing_has_a_finite_weight() {
+        let [r, t] = [0.5, 1e-43_f32].map(|x| Reflectance::new(x).unwrap());
+        let sheet = DiffuseTransmitter::new(r, t).unwrap();
+        let sample = sheet.sample(Vec3::Z, 1e-45, [0.3, 0.3]).unwrap();
+        // r + t, within the few bits that the share has.
+        assert!(sample.wi.z < 0.0 && (sample.weight - 0.5).abs() < 0.05, "{sample:?}");
     }
 
     #[test]
