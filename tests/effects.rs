@@ -2,6 +2,8 @@
 
 mod common;
 
+use std::collections::BTreeSet;
+
 use common::Folder;
 use serde_json::Value;
 
@@ -39,12 +41,45 @@ const MUCH: &str = r#"<scene version="3.0.0">
     <shape type="rectangle"><emitter type="area"/></shape>
 </scene>"#;
 
+/// A mirror and a chequered, half transparent ball under a lamp.
+const SEEN: &str = r#"<scene version="3.0.0">
+    <sensor type="perspective">
+        <transform name="to_world"><lookat origin="0, 0, 6" target="0, 0, 0" up="0, 1, 0"/></transform>
+    </sensor>
+    <emitter type="point"><point name="position" x="0" y="3" z="5"/></emitter>
+    <shape type="sphere"><point name="center" x="-1" y="0" z="0"/><bsdf type="conductor"/></shape>
+    <shape type="sphere"><point name="center" x="1" y="0" z="0"/><bsdf type="mask">
+        <float name="opacity" value="0.5"/>
+        <bsdf type="diffuse"><texture name="reflectance" type="checkerboard"/></bsdf>
+    </bsdf></shape>
+</scene>"#;
+
 fn effects(scene: &str) -> Vec<Value> {
+    effects_with(scene, &[])
+}
+
+fn effects_with(scene: &str, arguments: &[&str]) -> Vec<Value> {
     let folder = Folder::new();
     folder.write("scene.xml", scene);
-    let outcome = folder.run(&["effects", "scene.xml", "--json"]);
+    let outcome = folder.run(&[&["effects", "scene.xml", "--json"], arguments].concat());
     assert_eq!(outcome.exit, Some(0), "{}", outcome.stderr);
     outcome.json().as_array().expect("a list").clone()
+}
+
+/// The names of those for which `what` holds.
+fn names<'a>(effects: &'a [Value], what: &str) -> BTreeSet<&'a str> {
+    let chosen = effects.iter().filter(|effect| effect[what] == true);
+    chosen.map(|effect| effect["effect"].as_str().expect("a name")).collect()
+}
+
+/// The bytes of a small picture of a scene.
+fn picture(scene: &str, arguments: &[&str]) -> Vec<u8> {
+    let folder = Folder::new();
+    folder.write("scene.xml", scene);
+    let fixed = ["render", "scene.xml", "-o", "p.pfm", "-q", "--spp", "4", "--size", "24x24"];
+    let outcome = folder.run(&[&fixed, arguments].concat());
+    assert_eq!(outcome.exit, Some(0), "{}", outcome.stderr);
+    std::fs::read(folder.path("p.pfm")).expect("a picture")
 }
 
 /// Names and reasons of those that are present.
@@ -98,4 +133,72 @@ fn the_text_says_what_is_present_and_what_it_costs() {
     );
     assert!(outcome.stdout.contains("costs a choice among lights"), "{}", outcome.stdout);
     assert!(outcome.stdout.contains("opacity-mask           absent\n"), "{}", outcome.stdout);
+}
+
+#[test]
+fn what_is_left_out_is_not_called_for_and_everything_else_is() {
+    let whole = effects(MUCH);
+    for &effect in &names(&whole, "present") {
+        let rest = effects_with(MUCH, &["--without", effect]);
+        let mut expected = names(&whole, "simulated");
+        expected.remove(effect);
+        assert_eq!(names(&rest, "simulated"), expected, "without {effect}");
+        assert_eq!(present(&rest), present(&whole), "without {effect}");
+    }
+}
+
+#[test]
+fn only_some_is_without_all_others() {
+    let rest = effects_with(MUCH, &["--only", "indirect-light,area-light,bitmap-texture"]);
+    assert_eq!(names(&rest, "simulated"), BTreeSet::from(["indirect-light", "area-light"]));
+}
+
+#[test]
+fn leaving_out_what_is_absent_changes_no_bit() {
+    let whole = effects(SEEN);
+    let all: BTreeSet<&str> = whole.iter().filter_map(|effect| effect["effect"].as_str()).collect();
+    let absent: Vec<&str> = all.difference(&names(&whole, "present")).copied().collect();
+    assert!(absent.len() > 2, "{absent:?}");
+    assert_eq!(picture(SEEN, &["--without", &absent.join(",")]), picture(SEEN, &[]));
+    assert_ne!(picture(SEEN, &["--without", "delta-reflection"]), picture(SEEN, &[]));
+}
+
+#[test]
+fn without_any_light_the_picture_is_black() {
+    let black = picture(SEEN, &["--without", "point-light"]);
+    let header = b"PF\n24 24\n-1.0\n".len();
+    assert!(black[header..].iter().all(|byte| *byte == 0));
+    assert!(picture(SEEN, &[])[header..].iter().any(|byte| *byte != 0));
+}
+
+#[test]
+fn the_price_list_has_every_effect_that_is_simulated() {
+    let folder = Folder::new();
+    folder.write("scene.xml", SEEN);
+    let measure = ["effects", "scene.xml", "--measure", "--json", "-q", "--rounds", "1"];
+    let options = ["--spp", "2", "--size", "16x16", "--pictures", "pictures"];
+    let outcome = folder.run(&[&measure[..], &options].concat());
+    assert_eq!(outcome.exit, Some(0), "{}", outcome.stderr);
+    let prices = outcome.json();
+    let prices = prices.as_array().expect("a list");
+    let listed: BTreeSet<_> = prices.iter().filter_map(|price| price["effect"].as_str()).collect();
+    assert_eq!(listed, names(&effects(SEEN), "simulated"));
+    for price in prices {
+        let name = price["effect"].as_str().expect("a name");
+        assert!(price["seconds_without"].as_f64().is_some_and(|s| s > 0.0), "{price}");
+        assert!(price["flip"].as_f64().is_some_and(|flip| flip > 0.0), "{price}");
+        assert!(folder.path(&format!("pictures/{name}.png")).exists(), "{name}");
+        if name == "point-light" {
+            assert_eq!(price["mean_difference_percent"], -100.0);
+        }
+    }
+}
+
+#[test]
+fn an_unknown_effect_is_refused_with_the_names_that_exist() {
+    let folder = Folder::new();
+    folder.write("scene.xml", NOTHING);
+    let outcome = folder.run(&["render", "scene.xml", "-o", "p.png", "--without", "ponit-light"]);
+    assert_eq!(outcome.exit, Some(2), "{}", outcome.stderr);
+    assert!(outcome.stderr.contains("'point-light'"), "{}", outcome.stderr);
 }

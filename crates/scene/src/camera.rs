@@ -222,6 +222,12 @@ impl Camera {
         matches!(self.optics, Optics::Lens { .. })
     }
 
+    /// The same with everything in focus.
+    pub(crate) fn without_lens(self) -> Self {
+        let optics = if self.has_lens() { Optics::Pinhole } else { self.optics };
+        Self { optics, ..self }
+    }
+
     /// What kind of camera it is, in words.
     pub fn name(&self) -> &'static str {
         match self.optics {

@@ -56,7 +56,7 @@ pub struct SceneParts {
 /// A scene: what there is, where it is seen from, and how it is to be rendered.
 ///
 /// References between the parts have been checked.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Scene {
     /// Shapes.
     pub geometry: Geometry,
@@ -99,8 +99,7 @@ impl Scene {
             sampling,
             path,
         } = parts;
-        let is_infinite = |id: &LightId| lights[id.0 as usize].is_infinite();
-        let infinite_lights = (0..lights.len() as u32).map(LightId).filter(is_infinite).collect();
+        let infinite_lights = infinite(&lights);
         let bounds = geometry.bounds();
         let radius = if bounds.is_empty() { 0.0 } else { 0.5 * Vector3::length(bounds.extent()) };
         Ok(Self {
@@ -118,12 +117,36 @@ impl Scene {
         })
     }
 
+    /// Removes the lights that are not to be kept; shapes that were such a light stay where they are and emit nothing.
+    pub(crate) fn retain_lights(&mut self, keep: impl Fn(&Light) -> bool) {
+        let mut count = 0;
+        let renumbered: Vec<Option<LightId>> = (self.lights.iter())
+            .map(|light| {
+                keep(light).then(|| {
+                    count += 1;
+                    LightId(count - 1)
+                })
+            })
+            .collect();
+        self.lights.retain(keep);
+        for surface in &mut self.surfaces {
+            surface.light = surface.light.and_then(|light| renumbered[light.0 as usize]);
+        }
+        self.infinite_lights = infinite(&self.lights);
+    }
+
     /// The reflection model at a point looked at from one side, for directions in its shading frame.
     #[inline]
     pub fn prepare(&self, point: &SurfacePoint, side: Side) -> PreparedBsdf<'_> {
         let material = self.surfaces[point.shape.0 as usize].material;
         self.materials.prepare(material, &self.textures, point.uv, side)
     }
+}
+
+/// The lights that surround the scene.
+fn infinite(lights: &[Light]) -> Vec<LightId> {
+    let ids = (0..).map(LightId).zip(lights);
+    ids.filter(|(_, light)| light.is_infinite()).map(|(id, _)| id).collect()
 }
 
 #[cfg(test)]

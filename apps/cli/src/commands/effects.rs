@@ -1,11 +1,20 @@
 //! `etendue effects`: what a scene calls for.
 
-use etendue_scene::effect::{Element, Presence};
-use etendue_scene::{Effect, LoadedScene};
-use serde_json::{Value, json};
+mod line;
+mod measure;
+
+use std::collections::BTreeSet;
+use std::path::PathBuf;
+
+use etendue_scene::{Effect, LoadOptions};
+use serde_json::Value;
 
 use super::scene_arguments::{SceneArguments, load};
+use super::selection::SelectionArguments;
+use super::values::size;
 use crate::failure::{Exit, Failure};
+use crate::progress::Quiet;
+use line::Line;
 
 /// Prints which effects a scene calls for, because of what, and what each costs.
 ///
@@ -14,17 +23,59 @@ use crate::failure::{Exit, Failure};
 pub(crate) struct Arguments {
     #[command(flatten)]
     scene: SceneArguments,
+    #[command(flatten)]
+    selection: SelectionArguments,
+    /// Render the scene with and without each effect that is simulated, and print what it costs in time and what leaving
+    /// it out does to the picture.
+    #[arg(long)]
+    measure: bool,
+    /// Samples per pixel of the measured pictures; those of the scene if not given.
+    #[arg(long, value_name = "N", requires = "measure", value_parser = clap::value_parser!(u32).range(1..))]
+    spp: Option<u32>,
+    /// Size of the measured pictures in pixels.
+    #[arg(long, value_name = "WIDTHxHEIGHT", requires = "measure", value_parser = size)]
+    size: Option<[u32; 2]>,
+    /// How often each pair of pictures is rendered; times are compared within pairs, and the median counts.
+    #[arg(long, value_name = "N", requires = "measure", default_value_t = 3, value_parser = clap::value_parser!(u32).range(1..=1000))]
+    rounds: u32,
+    /// Write a difference picture for each effect into this folder: red where the picture without it is brighter,
+    /// blue where it is darker.
+    #[arg(long, value_name = "FOLDER", requires = "measure")]
+    pictures: Option<PathBuf>,
+    #[command(flatten)]
+    quiet: Quiet,
     /// Print one line of JSON.
     #[arg(long)]
     json: bool,
 }
 
+impl Arguments {
+    fn load_options(&self) -> LoadOptions {
+        LoadOptions {
+            film_size: self.size,
+            samples_per_pixel: self.spp,
+            ..self.scene.load_options()
+        }
+    }
+}
+
 pub(crate) fn run(arguments: &Arguments) -> Result<Exit, Failure> {
-    let loaded = load(&arguments.scene.scene, &arguments.scene.load_options())?;
+    let mut loaded = load(&arguments.scene.scene, &arguments.load_options())?;
     let present = loaded.scene.effects();
+    let reasons: Vec<_> =
+        present.iter().map(|presence| (presence.effect, line::reason(presence, &loaded))).collect();
+    loaded.scene = arguments.selection.select(loaded.scene);
+    let simulated: BTreeSet<Effect> = loaded.scene.effects().iter().map(|p| p.effect).collect();
+    if arguments.measure {
+        return measure::run(arguments, &loaded.scene, &simulated);
+    }
     let lines = Effect::ALL.map(|effect| {
-        let presence = present.iter().find(|presence| presence.effect == effect);
-        Line { effect, reason: presence.map(|presence| reason(presence, &loaded)) }
+        let reason = reasons.iter().find(|(present, _)| *present == effect);
+        Line {
+            effect,
+            reason: reason.map(|(_, reason)| reason.as_str()),
+            simulated: simulated.contains(&effect),
+        }
     });
     if arguments.json {
         println!("{}", lines.iter().map(Line::json).collect::<Value>());
@@ -32,49 +83,4 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Exit, Failure> {
         lines.iter().for_each(Line::print);
     }
     Ok(Exit::Done)
-}
-
-/// What is said of one effect.
-struct Line {
-    effect: Effect,
-    /// Why it is simulated, where it is.
-    reason: Option<String>,
-}
-
-impl Line {
-    fn print(&self) {
-        match &self.reason {
-            None => println!("{:22} absent", self.effect.name()),
-            Some(reason) => {
-                println!("{:22} present: {reason}", self.effect.name());
-                println!("{:22} costs {}", "", self.effect.cost());
-            }
-        }
-    }
-
-    fn json(&self) -> Value {
-        json!({
-            "effect": self.effect.name(),
-            "present": self.reason.is_some(),
-            "reason": self.reason,
-            "costs": self.effect.cost(),
-        })
-    }
-}
-
-/// The first element that calls for an effect, and how many do.
-fn reason(presence: &Presence, loaded: &LoadedScene) -> String {
-    let element = match (loaded.origins.of(presence.because), presence.because) {
-        (Some(origin), _) => origin.to_string(),
-        (None, Element::Material(_)) => "a material that the file does not describe".to_owned(),
-        (None, Element::Texture(_)) => "an image that a mesh file names".to_owned(),
-        (None, Element::Light(_)) => "the light around a bare mesh".to_owned(),
-        (None, Element::Instances) => "instances".to_owned(),
-        (None, Element::Camera) => "the camera".to_owned(),
-        (None, Element::Paths) => "paths as they are without an integrator".to_owned(),
-    };
-    match presence.count {
-        1 => element,
-        count => format!("{element} and {} more", count - 1),
-    }
 }

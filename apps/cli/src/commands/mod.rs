@@ -7,4 +7,5 @@ pub(crate) mod effects;
 pub(crate) mod info;
 pub(crate) mod render;
 mod scene_arguments;
+mod selection;
 mod values;

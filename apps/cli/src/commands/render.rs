@@ -12,6 +12,7 @@ use etendue_scene::film::Crop;
 use etendue_scene::{LoadOptions, SamplerKind};
 
 use super::scene_arguments::{SceneArguments, load};
+use super::selection::SelectionArguments;
 use super::values::{crop, duration, exposure, max_depth, relative_error, size};
 use crate::failure::{Exit, Failure};
 use crate::interrupt::Interrupt;
@@ -26,6 +27,8 @@ use task::Task;
 pub(crate) struct Arguments {
     #[command(flatten)]
     scene: SceneArguments,
+    #[command(flatten)]
+    selection: SelectionArguments,
     /// The picture to write; its extension chooses the format: exr, hdr, pfm (linear), png (sRGB).
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
@@ -131,20 +134,21 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Exit, Failure> {
         .map_err(|e| Failure::new(Exit::Internal, format!("cannot handle signals: {e}")))?;
     let start = Instant::now();
     let loaded = load(&arguments.scene.scene, &arguments.load_options())?;
+    let scene = arguments.selection.select(loaded.scene);
     let build_seconds = start.elapsed().as_secs_f64();
-    for diagnosis in loaded.scene.diagnose() {
+    for diagnosis in scene.diagnose() {
         eprintln!("etendue: warning: {diagnosis}");
     }
 
-    let task = Task::new(arguments, &loaded.scene)?;
+    let task = Task::new(arguments, &scene)?;
     let start = Instant::now();
-    let drawing = draw(&task, &loaded.scene, &interrupt)?;
+    let drawing = draw(&task, &scene, &interrupt)?;
     let render_seconds = start.elapsed().as_secs_f64();
     let report = Report { render_seconds, build_seconds, drawing: &drawing };
-    report.warn_of_bad_samples(loaded.scene.sampling.seed);
+    report.warn_of_bad_samples(scene.sampling.seed);
 
     let encoding = Encoding { precision: arguments.precision, exposure: arguments.exposure };
-    let metadata = report.metadata(arguments, &loaded);
+    let metadata = report.metadata(arguments, &scene);
     output.write(&drawing.image, &drawing.layers, encoding, &metadata)?;
     if !arguments.quiet.quiet {
         eprintln!("etendue: {}", report.summary(&output));

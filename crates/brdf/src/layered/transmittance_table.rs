@@ -52,8 +52,7 @@ impl<T: Real> TransmittanceTable<T> {
         let index = eta.value().to_f64();
         // Quadrature rounds: an interface that transmits all would seem to transmit more.
         let share = |x: f64| T::lit(x.clamp_to(0.0, 1.0));
-        let transmittance =
-            core::array::from_fn(|i| share(albedo.at(index, node(i)).transmitted));
+        let transmittance = core::array::from_fn(|i| share(albedo.at(index, node(i)).transmitted));
         let reflectance = |mu: f64| albedo.at(1.0 / index, mu).reflected;
         let internal = match internal {
             InternalReflectance::Exact => {

@@ -1,9 +1,12 @@
 //! What a scene may call for, and what it does call for.
 //!
 //! The vocabulary is closed: an [`Effect`] is something that takes code of its own, time, or random numbers, and that
-//! a scene can do without. [`Scene::effects`](crate::Scene::effects) is a pure function of what the scene refers to.
+//! a scene can do without. [`Scene::effects`](crate::Scene::effects) is a pure function of what the scene refers to, and
+//! [`Scene::without`](crate::Scene::without) gives the scene that does not call for some of them.
 
+mod causes;
 mod presence;
+mod selection;
 
 pub use presence::{Element, Presence};
 

@@ -3,10 +3,13 @@
 use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::vec::Vec;
 
+use etendue_math::Spectrum;
+
 use super::Effect;
+use super::causes::{of_light, of_lobes, of_surface, of_texture};
 use crate::Scene;
 use crate::light::{Light, LightId};
-use crate::material::{Material, MaterialId, PlasticSurface};
+use crate::material::{Material, MaterialId};
 use crate::texture::{Texture, TextureId};
 
 /// A part of a scene that calls for an effect.
@@ -67,20 +70,21 @@ impl Scene {
             demands.into_iter().filter(|d| d.1).map(|(effect, _)| (effect, Element::Paths)),
         );
         let lights = (0..).map(LightId).zip(&self.lights);
-        causes.extend(lights.map(|(id, light)| (effect_of_light(light), Element::Light(id))));
+        causes.extend(lights.map(|(id, light)| (of_light(light), Element::Light(id))));
         let materials = self.materials_in_use();
         for &id in &materials {
-            let Some(material) = self.materials.get(id) else { continue };
-            causes
-                .extend(effects_of_material(material).iter().map(|&e| (e, Element::Material(id))));
+            let Some(mut material) = self.materials.get(id).cloned() else { continue };
+            let black = |factor: TextureId| {
+                self.textures.is_constant(factor) && self.textures.mean(factor).is_black()
+            };
+            let lobes = of_lobes(&mut material).filter(|(_, factor)| !black(**factor));
+            let effects: Vec<Effect> = lobes.map(|(effect, _)| effect).collect();
+            let effects = effects.into_iter().chain(of_surface(&material));
+            causes.extend(effects.map(|effect| (effect, Element::Material(id))));
         }
         for id in self.textures_in_use(&materials) {
-            let effect = match self.textures.get(id) {
-                Some(Texture::Bitmap(_)) => Effect::BitmapTexture,
-                Some(Texture::Checkerboard(_)) => Effect::CheckerboardTexture,
-                Some(Texture::Constant(_)) | None => continue,
-            };
-            causes.push((effect, Element::Texture(id)));
+            let effect = self.textures.get(id).and_then(of_texture);
+            causes.extend(effect.map(|effect| (effect, Element::Texture(id))));
         }
         let instances = self.geometry.instance_count();
         causes.extend((0..instances).map(|_| (Effect::Instancing, Element::Instances)));
@@ -116,37 +120,6 @@ impl Scene {
             }
         }
         in_use
-    }
-}
-
-fn effect_of_light(light: &Light) -> Effect {
-    match light {
-        Light::Area(_) => Effect::AreaLight,
-        Light::Point(_) => Effect::PointLight,
-        Light::Spot(_) => Effect::SpotLight,
-        Light::Directional(_) => Effect::DirectionalLight,
-        Light::Constant(_) => Effect::ConstantBackground,
-        Light::Environment(_) => Effect::EnvironmentMap,
-    }
-}
-
-fn effects_of_material(material: &Material) -> &'static [Effect] {
-    const MIRROR: &[Effect] = &[Effect::DeltaReflection];
-    const FACETS: &[Effect] = &[Effect::RoughReflection];
-    match material {
-        Material::Diffuse { .. } | Material::RoughDiffuse { .. } | Material::TwoSided { .. } => &[],
-        Material::Dielectric { roughness: None, .. } | Material::ThinDielectric { .. } => {
-            &[Effect::DeltaReflection, Effect::DeltaTransmission]
-        }
-        Material::Dielectric { roughness: Some(_), .. } => {
-            &[Effect::RoughReflection, Effect::RoughTransmission]
-        }
-        Material::Conductor { roughness: None, .. }
-        | Material::Plastic { surface: PlasticSurface::Smooth(_), .. } => MIRROR,
-        Material::Conductor { roughness: Some(_), .. }
-        | Material::Plastic { surface: PlasticSurface::Rough(_), .. } => FACETS,
-        Material::Mask { .. } => &[Effect::OpacityMask],
-        Material::Null => &[Effect::PassThrough],
     }
 }
 

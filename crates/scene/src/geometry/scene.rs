@@ -15,6 +15,8 @@ use super::{Aabb, GeometryBuilder, Ray, Shape, ShapeId, SurfacePoint, Transform,
 #[derive(Clone, Debug)]
 pub struct Geometry {
     shapes: Vec<Shape>,
+    /// The shapes that are not part of a group.
+    top_level: Vec<ShapeId>,
     instances: Vec<Instance>,
     groups: Vec<Level>,
     pub(super) top: Level,
@@ -133,7 +135,13 @@ impl Geometry {
             .into_iter()
             .map(|(group, transform)| Instance { group: group.0, transform })
             .collect();
-        Self { shapes, instances, groups, top, backend: Backend::detect() }
+        Self { shapes, top_level, instances, groups, top, backend: Backend::detect() }
+    }
+
+    /// The same without its instances; the shapes of groups keep their numbers, and no ray meets them.
+    pub(crate) fn without_instances(self) -> Self {
+        let top = Level::build(&self.shapes, self.top_level.iter().map(|id| id.0), &[]);
+        Self { instances: Vec::new(), top, ..self }
     }
 
     /// The closest hit at `0 < t < t_max`.

@@ -215,6 +215,17 @@ impl Materials {
         self.materials.iter()
     }
 
+    /// Puts `change(material, earlier)` in the place of each material that it changes, in order; `earlier` are the materials
+    /// before it, changed already.
+    pub(crate) fn change(&mut self, change: impl Fn(&Material, &[Material]) -> Option<Material>) {
+        for i in 0..self.materials.len() {
+            let (earlier, rest) = self.materials.split_at_mut(i);
+            if let Some(changed) = change(&rest[0], earlier) {
+                rest[0] = changed;
+            }
+        }
+    }
+
     /// A material, or `None` for an unknown `id`.
     #[inline]
     pub fn get(&self, id: MaterialId) -> Option<&Material> {

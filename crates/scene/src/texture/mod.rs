@@ -85,6 +85,16 @@ impl Textures {
         id
     }
 
+    /// Puts its mean in the place of every texture that `varies`.
+    pub(crate) fn average(&mut self, varies: impl Fn(&Texture) -> bool) {
+        for Entry { texture, mean, max } in &mut self.entries {
+            if varies(texture) {
+                *texture = Texture::Constant(*mean);
+                *max = *mean;
+            }
+        }
+    }
+
     /// Adds a texture that is `color` everywhere.
     pub fn constant(&mut self, color: Color) -> TextureId {
         self.add(Texture::Constant(color))

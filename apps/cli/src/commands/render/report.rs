@@ -1,7 +1,7 @@
 //! What a finished render says about itself.
 
 use etendue_renderer::progressive::{CONFIDENCE, ImageError, factor_for_half};
-use etendue_scene::LoadedScene;
+use etendue_scene::Scene;
 use serde_json::{Value, json};
 
 use super::Arguments;
@@ -43,8 +43,8 @@ impl Report<'_> {
             .then(|| factor_for_half(&accuracy.rounds))
     }
 
-    pub(super) fn metadata(&self, arguments: &Arguments, loaded: &LoadedScene) -> Metadata {
-        let sampling = loaded.scene.sampling;
+    pub(super) fn metadata(&self, arguments: &Arguments, scene: &Scene) -> Metadata {
+        let sampling = scene.sampling;
         let progressive = self.drawing.accuracy.is_some();
         Metadata {
             scene: arguments.scene.scene.display().to_string(),

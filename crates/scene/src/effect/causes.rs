@@ -1,0 +1,68 @@
+//! Which part of a scene calls for which effect.
+
+use super::Effect;
+use crate::light::Light;
+use crate::material::{Material, PlasticSurface};
+use crate::texture::{Texture, TextureId};
+
+/// The effect of a light.
+pub(super) fn of_light(light: &Light) -> Effect {
+    match light {
+        Light::Area(_) => Effect::AreaLight,
+        Light::Point(_) => Effect::PointLight,
+        Light::Spot(_) => Effect::SpotLight,
+        Light::Directional(_) => Effect::DirectionalLight,
+        Light::Constant(_) => Effect::ConstantBackground,
+        Light::Environment(_) => Effect::EnvironmentMap,
+    }
+}
+
+/// The effect of a texture that varies.
+pub(super) fn of_texture(texture: &Texture) -> Option<Effect> {
+    match texture {
+        Texture::Constant(_) => None,
+        Texture::Bitmap(_) => Some(Effect::BitmapTexture),
+        Texture::Checkerboard(_) => Some(Effect::CheckerboardTexture),
+    }
+}
+
+/// The effects that are lobes of a material, each with the texture that scales it: where that is black, the effect is
+/// absent.
+pub(super) fn of_lobes(material: &mut Material) -> impl Iterator<Item = (Effect, &mut TextureId)> {
+    const DELTA: [Effect; 2] = [Effect::DeltaReflection, Effect::DeltaTransmission];
+    const ROUGH: [Effect; 2] = [Effect::RoughReflection, Effect::RoughTransmission];
+    let ([reflection, transmission], reflected, transmitted) = match material {
+        Material::Dielectric {
+            roughness, specular_reflectance, specular_transmittance, ..
+        } => {
+            let lobes = if roughness.is_some() { ROUGH } else { DELTA };
+            (lobes, Some(specular_reflectance), Some(specular_transmittance))
+        }
+        Material::ThinDielectric { specular_reflectance, specular_transmittance, .. } => {
+            (DELTA, Some(specular_reflectance), Some(specular_transmittance))
+        }
+        Material::Conductor { roughness, specular_reflectance, .. } => {
+            (if roughness.is_some() { ROUGH } else { DELTA }, Some(specular_reflectance), None)
+        }
+        Material::Plastic { surface, specular_reflectance, .. } => match surface {
+            PlasticSurface::Smooth(_) => (DELTA, Some(specular_reflectance), None),
+            PlasticSurface::Rough(_) => (ROUGH, Some(specular_reflectance), None),
+        },
+        Material::Diffuse { .. }
+        | Material::RoughDiffuse { .. }
+        | Material::TwoSided { .. }
+        | Material::Mask { .. }
+        | Material::Null => (DELTA, None, None),
+    };
+    let reflected = reflected.map(|factor| (reflection, factor));
+    reflected.into_iter().chain(transmitted.map(|factor| (transmission, factor)))
+}
+
+/// The effect that a material is as a whole.
+pub(super) fn of_surface(material: &Material) -> Option<Effect> {
+    match material {
+        Material::Mask { .. } => Some(Effect::OpacityMask),
+        Material::Null => Some(Effect::PassThrough),
+        _ => None,
+    }
+}

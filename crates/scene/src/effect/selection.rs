@@ -1,0 +1,75 @@
+//! Leaving effects out of a scene.
+
+use alloc::collections::BTreeSet;
+
+use etendue_math::Spectrum;
+
+use super::Effect;
+use super::causes::{of_light, of_lobes, of_surface, of_texture};
+use crate::material::{Material, MaterialId};
+use crate::texture::TextureId;
+use crate::{Color, Scene};
+
+impl Scene {
+    /// The same scene with these effects left out; those that it does not call for make no difference.
+    ///
+    /// What is left is a scene that does not call for them, so that nothing of them is left in time either:
+    ///
+    /// * light: lights are not there, shapes that emit are dark, paths end at the second edge without indirect light;
+    /// * reflection and transmission: the lobe is black, and a surface that has no other one is black altogether;
+    /// * opacity masks: surfaces are whole; pass-through: they are black;
+    /// * textures: their mean is everywhere;
+    /// * instances are not there, everything is in focus, emitters are seen, normals need not agree.
+    ///
+    /// Lights are numbered anew.
+    pub fn without(mut self, effects: &BTreeSet<Effect>) -> Self {
+        let out = |effect: Effect| effects.contains(&effect);
+        if out(Effect::IndirectLight) {
+            self.path.max_depth = Some(self.path.max_depth.map_or(2, |depth| depth.min(2)));
+        }
+        self.path.hide_emitters &= !out(Effect::HiddenEmitters);
+        self.path.strict_normals &= !out(Effect::StrictNormals);
+        self.retain_lights(|light| !out(of_light(light)));
+        self.textures.average(|texture| of_texture(texture).is_some_and(out));
+        let black = self.textures.constant(Color::black());
+        self.materials.change(|material, earlier| changed(material, earlier, &out, black));
+        if out(Effect::Instancing) && self.geometry.instance_count() > 0 {
+            self.geometry = self.geometry.without_instances();
+        }
+        if out(Effect::DepthOfField) {
+            self.camera = self.camera.without_lens();
+        }
+        self
+    }
+}
+
+/// What is left of a material, if that is something else.
+fn changed(
+    material: &Material,
+    earlier: &[Material],
+    out: &impl Fn(Effect) -> bool,
+    black: TextureId,
+) -> Option<Material> {
+    let absorber = Material::Diffuse { reflectance: black };
+    if of_surface(material).is_some_and(out) {
+        return Some(match *material {
+            Material::Mask { nested: MaterialId(id), .. } => earlier[id as usize].clone(),
+            _ => absorber,
+        });
+    }
+    let mut changed = material.clone();
+    let (mut lobes, mut left_out) = (0, 0);
+    for (effect, factor) in of_lobes(&mut changed) {
+        lobes += 1;
+        if out(effect) {
+            *factor = black;
+            left_out += 1;
+        }
+    }
+    let has_base = matches!(material, Material::Plastic { .. });
+    match left_out {
+        0 => None,
+        n if n == lobes && !has_base => Some(absorber),
+        _ => Some(changed),
+    }
+}
