@@ -90,11 +90,19 @@
 //! target. `arch` makes `libm` faster without `std`. `alloc` adds the module `named`, models and functions by name
 //! for files and command lines, and `serde` reads such descriptions from JSON and other formats.
 //!
+//! Families of models are features too, all on by default: `adapters`, `diffuse`, `layered`, `measured`, `openpbr`, `phong`,
+//! `principled`, `rough`, `smooth`; `models` is all of them. Without any, what they share is there: Fresnel's equations,
+//! quadrature, radiometry.
+//!
 //! # Non-goals
 //! No textures, no world space, no normal maps: those belong to a scene. No polarisation. Rough
 //! models lose what scatters more than once between facets, but for those that say otherwise.
 #![no_std]
 #![forbid(unsafe_code)]
+#![cfg_attr(
+    not(feature = "models"),
+    allow(dead_code, unused_imports, reason = "families share what not each of them uses")
+)]
 #![allow(
     clippy::neg_cmp_op_on_partial_ord,
     reason = "`!(x > 0)` is how NaN is refused along with what is not positive"
@@ -107,57 +115,78 @@ extern crate std;
 extern crate alloc;
 
 mod absorption;
+#[cfg(feature = "adapters")]
 mod adapter;
 mod bsdf;
+#[cfg(feature = "diffuse")]
 mod diffuse;
 pub mod direction;
 pub mod fresnel;
 #[cfg(test)]
 mod laws;
+#[cfg(feature = "layered")]
 mod layered;
+#[cfg(feature = "measured")]
 mod measured;
+#[cfg(feature = "rough")]
 pub mod microfacet;
+#[cfg(any(feature = "measured", feature = "phong", feature = "rough"))]
 mod mixture;
 #[cfg(feature = "alloc")]
 pub mod named;
+#[cfg(feature = "openpbr")]
 mod openpbr;
 mod param;
+#[cfg(feature = "phong")]
 mod phong;
+#[cfg(feature = "principled")]
 mod principled;
 pub mod quadrature;
 pub mod radiometry;
 pub mod registry;
+#[cfg(feature = "rough")]
 mod rough;
+#[cfg(feature = "smooth")]
 mod smooth;
 
 pub use absorption::Absorption;
+#[cfg(feature = "adapters")]
 pub use adapter::{Blend, Mask, TwoSided};
 pub use bsdf::{Bsdf, BsdfReal, BsdfVec, Density, Lobes, Sample};
+#[cfg(feature = "diffuse")]
 pub use diffuse::{
     Burley, ClippedCosine, DiffuseTransmitter, Eon, EonAlbedo, EonSampling, Lambert, OrenNayar,
     OrenNayarFujii, OrenNayarQualitative, fon,
 };
+#[cfg(feature = "layered")]
 pub use layered::{
     AnyCoupled, AnyPlastic, Coupled, CoupledInterface, InternalReflectance, InternalScattering,
     LayeredFresnel, LayeredLinear, MirrorOverMatte, Plastic, PlasticInterface, PlasticSurface,
     RoughCoupled, RoughPlastic, StochasticLayers, TransmittanceTable,
 };
+#[cfg(feature = "measured")]
 pub use measured::{Interpolation, Measured, MerlError, MerlTable, tabulate};
+#[cfg(feature = "rough")]
 pub use microfacet::{BeckmannLambda, Distribution, Masking, Microfacets};
+#[cfg(feature = "openpbr")]
 pub use openpbr::{FuzzTable, OpenPbr, OpenPbrParameters};
 pub use param::{
     Alpha, ComplexIor, Exponent, Given, Ior, Opacity, OpticalDepth, ParameterError, Reflectance,
     Roughness, Sigma,
 };
+#[cfg(feature = "phong")]
 pub use phong::{
     AshikhminShirley, AshikhminShirleyDiffuse, AshikhminShirleySampling, AshikhminShirleySpecular,
     Phong, PhongHalfVectors,
 };
+#[cfg(feature = "principled")]
 pub use principled::{Principled, PrincipledParameters, PrincipledThin, PrincipledThinParameters};
+#[cfg(feature = "rough")]
 pub use rough::{
     Conductor, Dielectric, KullaContyConductor, KullaContyDielectric, RoughConductor,
     RoughDielectric, TurquinConductor,
 };
+#[cfg(feature = "smooth")]
 pub use smooth::{AbsorbingSlab, Null, SmoothConductor, SmoothDielectric, ThinDielectric};
 
 /// Runs the README's example.

@@ -1,8 +1,6 @@
 //! The list of all models: what they take, promise and rest on.
 
-use crate::{
-    Lobes, adapter, diffuse, layered, measured, openpbr, phong, principled, rough, smooth,
-};
+use crate::Lobes;
 
 /// Whether exchanging the two directions changes a model's value.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -140,45 +138,84 @@ pub(crate) mod parameter {
 ///
 /// A test of `etendue-audit` compares it with the sources, so that a new model cannot be forgotten.
 pub const MODELS: &[ModelInfo] = &[
-    smooth::absorbing_slab::INFO,
-    layered::any_coupled::INFO,
-    layered::any_plastic::INFO,
-    phong::ashikhmin_shirley::INFO,
-    phong::ashikhmin_shirley_diffuse::INFO,
-    phong::ashikhmin_shirley_specular::INFO,
-    adapter::blend::INFO,
-    diffuse::burley::INFO,
-    rough::conductor::INFO,
-    layered::coupled::INFO,
-    rough::dielectric::INFO,
-    diffuse::diffuse_transmitter::INFO,
-    diffuse::eon::INFO,
-    diffuse::eon::INFO_APPROXIMATE,
-    rough::kulla_conty::INFO,
-    rough::kulla_conty_dielectric::INFO,
-    diffuse::lambert::INFO,
-    layered::layered_fresnel::INFO,
-    layered::layered_linear::INFO,
-    adapter::mask::INFO,
-    measured::merl::INFO,
-    smooth::null::INFO,
-    openpbr::surface::INFO,
-    diffuse::oren_nayar::INFO,
-    diffuse::oren_nayar_fujii::INFO,
-    diffuse::oren_nayar_qualitative::INFO,
-    phong::modified_phong::INFO,
-    layered::plastic::INFO,
-    principled::solid::INFO,
-    principled::thin::INFO,
-    rough::rough_conductor::INFO,
-    layered::rough_coupled::INFO,
-    rough::rough_dielectric::INFO,
-    layered::rough_plastic::INFO,
-    smooth::smooth_conductor::INFO,
-    smooth::smooth_dielectric::INFO,
-    smooth::thin_dielectric::INFO,
-    rough::turquin::INFO,
-    adapter::two_sided::INFO,
+    #[cfg(feature = "smooth")]
+    crate::smooth::absorbing_slab::INFO,
+    #[cfg(feature = "layered")]
+    crate::layered::any_coupled::INFO,
+    #[cfg(feature = "layered")]
+    crate::layered::any_plastic::INFO,
+    #[cfg(feature = "phong")]
+    crate::phong::ashikhmin_shirley::INFO,
+    #[cfg(feature = "phong")]
+    crate::phong::ashikhmin_shirley_diffuse::INFO,
+    #[cfg(feature = "phong")]
+    crate::phong::ashikhmin_shirley_specular::INFO,
+    #[cfg(feature = "adapters")]
+    crate::adapter::blend::INFO,
+    #[cfg(feature = "diffuse")]
+    crate::diffuse::burley::INFO,
+    #[cfg(feature = "rough")]
+    crate::rough::conductor::INFO,
+    #[cfg(feature = "layered")]
+    crate::layered::coupled::INFO,
+    #[cfg(feature = "rough")]
+    crate::rough::dielectric::INFO,
+    #[cfg(feature = "diffuse")]
+    crate::diffuse::diffuse_transmitter::INFO,
+    #[cfg(feature = "diffuse")]
+    crate::diffuse::eon::INFO,
+    #[cfg(feature = "diffuse")]
+    crate::diffuse::eon::INFO_APPROXIMATE,
+    #[cfg(feature = "rough")]
+    crate::rough::kulla_conty::INFO,
+    #[cfg(feature = "rough")]
+    crate::rough::kulla_conty_dielectric::INFO,
+    #[cfg(feature = "diffuse")]
+    crate::diffuse::lambert::INFO,
+    #[cfg(feature = "layered")]
+    crate::layered::layered_fresnel::INFO,
+    #[cfg(feature = "layered")]
+    crate::layered::layered_linear::INFO,
+    #[cfg(feature = "adapters")]
+    crate::adapter::mask::INFO,
+    #[cfg(feature = "measured")]
+    crate::measured::merl::INFO,
+    #[cfg(feature = "smooth")]
+    crate::smooth::null::INFO,
+    #[cfg(feature = "openpbr")]
+    crate::openpbr::surface::INFO,
+    #[cfg(feature = "diffuse")]
+    crate::diffuse::oren_nayar::INFO,
+    #[cfg(feature = "diffuse")]
+    crate::diffuse::oren_nayar_fujii::INFO,
+    #[cfg(feature = "diffuse")]
+    crate::diffuse::oren_nayar_qualitative::INFO,
+    #[cfg(feature = "phong")]
+    crate::phong::modified_phong::INFO,
+    #[cfg(feature = "layered")]
+    crate::layered::plastic::INFO,
+    #[cfg(feature = "principled")]
+    crate::principled::solid::INFO,
+    #[cfg(feature = "principled")]
+    crate::principled::thin::INFO,
+    #[cfg(feature = "rough")]
+    crate::rough::rough_conductor::INFO,
+    #[cfg(feature = "layered")]
+    crate::layered::rough_coupled::INFO,
+    #[cfg(feature = "rough")]
+    crate::rough::rough_dielectric::INFO,
+    #[cfg(feature = "layered")]
+    crate::layered::rough_plastic::INFO,
+    #[cfg(feature = "smooth")]
+    crate::smooth::smooth_conductor::INFO,
+    #[cfg(feature = "smooth")]
+    crate::smooth::smooth_dielectric::INFO,
+    #[cfg(feature = "smooth")]
+    crate::smooth::thin_dielectric::INFO,
+    #[cfg(feature = "rough")]
+    crate::rough::turquin::INFO,
+    #[cfg(feature = "adapters")]
+    crate::adapter::two_sided::INFO,
 ];
 
 #[cfg(test)]

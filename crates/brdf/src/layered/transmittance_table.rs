@@ -51,7 +51,7 @@ impl<T: Real> TransmittanceTable<T> {
         let albedo = InterfaceAlbedo::new(&facets.in_double());
         let index = eta.value().to_f64();
         // Quadrature rounds: an interface that transmits all would seem to transmit more.
-        let share = |x: f64| T::lit(x.clamp_to(0.0, 1.0));
+        let share = |x: f64| T::lit(Real::clamp_to(x, 0.0, 1.0));
         let transmittance = core::array::from_fn(|i| share(albedo.at(index, node(i)).transmitted));
         let reflectance = |mu: f64| albedo.at(1.0 / index, mu).reflected;
         let internal = match internal {

@@ -1,0 +1,98 @@
+//! The scenes in `scenes/effects/`: each calls for the effect it is named after, and looks as it did.
+
+mod common;
+
+use std::collections::BTreeSet;
+
+use common::golden::Golden;
+use common::{Folder, repository};
+use serde_json::Value;
+
+/// Name of every scene, bound of the relMSE and of the relative difference of the means: twice the largest of eight seeds,
+/// as `tests/golden/bounds.sh` measures them.
+const SCENES: &[(&str, f64, f64)] = &[
+    ("area-light", 0.00064, 0.003),
+    ("bitmap-texture", 0.0029, 0.0013),
+    ("checkerboard-texture", 0.0032, 0.0026),
+    ("constant-background", 0.0011, 0.00057),
+    ("delta-reflection", 0.00051, 0.00097),
+    ("delta-transmission", 0.005, 0.0037),
+    ("depth-of-field", 0.0021, 0.0017),
+    ("directional-light", 0.00025, 0.0006),
+    ("environment-map", 0.0031, 0.0024),
+    ("hidden-emitters", 0.0021, 0.0035),
+    ("indirect-light", 0.0025, 0.0042),
+    ("instancing", 0.0037, 0.0022),
+    ("opacity-mask", 0.015, 0.0028),
+    ("pass-through", 0.0015, 0.0011),
+    ("point-light", 0.000058, 0.00039),
+    ("rough-reflection", 0.0018, 0.0034),
+    ("rough-transmission", 0.0044, 0.0047),
+    ("spot-light", 0.00018, 0.00096),
+    ("strict-normals", 0.0028, 0.0016),
+];
+
+fn scene(name: &str) -> String {
+    format!("scenes/effects/{name}.xml")
+}
+
+/// What `etendue effects` says of a scene.
+fn effects(scene: &str, arguments: &[&str]) -> Vec<Value> {
+    let path = repository(scene);
+    let fixed = ["effects", path.to_str().expect("UTF-8"), "--json"];
+    let outcome = Folder::new().run(&[&fixed, arguments].concat());
+    assert_eq!(outcome.exit, Some(0), "{scene}: {}", outcome.stderr);
+    outcome.json().as_array().expect("a list").clone()
+}
+
+fn names(effects: &[Value], present: bool) -> BTreeSet<&str> {
+    let chosen = effects.iter().filter(|effect| effect["present"] == present);
+    chosen.map(|effect| effect["effect"].as_str().expect("a name")).collect()
+}
+
+#[test]
+fn every_effect_has_a_scene_that_calls_for_it() {
+    let vocabulary = effects(&scene("area-light"), &[]);
+    for effect in vocabulary.iter().map(|effect| effect["effect"].as_str().expect("a name")) {
+        let effects = effects(&scene(effect), &[]);
+        assert!(names(&effects, true).contains(effect), "scenes/effects/{effect}.xml");
+    }
+}
+
+#[test]
+fn every_scene_has_a_golden_picture_and_looks_as_it_did() {
+    let files = std::fs::read_dir(repository("scenes/effects")).expect("a folder");
+    let files = files.map(|file| file.expect("a file").path());
+    let scenes = files.filter(|path| path.extension().is_some_and(|e| e == "xml"));
+    let found: BTreeSet<_> = scenes.filter_map(|p| Some(p.file_stem()?.to_owned())).collect();
+    assert_eq!(found, SCENES.iter().map(|scene| scene.0.into()).collect());
+    for &(name, relative_mse, mean_difference) in SCENES {
+        let (scene, golden) = (scene(name), format!("effects/{name}"));
+        Golden { scene: &scene, name: &golden, size: "48x32", relative_mse, mean_difference }
+            .check();
+    }
+}
+
+#[test]
+fn leaving_out_what_is_absent_changes_no_bit_of_any_scene() {
+    for &(name, ..) in SCENES {
+        let (path, effects) = (repository(&scene(name)), effects(&scene(name), &[]));
+        let absent = names(&effects, false).into_iter().collect::<Vec<_>>().join(",");
+        let folder = Folder::new();
+        let options = ["--size", "24x16", "--spp", "8"];
+        let whole = folder.render(&path, &options);
+        let without = folder.render(&path, &[&options[..], &["--without", &absent]].concat());
+        assert!(whole.samples().eq(without.samples()), "{name} without {absent}");
+    }
+}
+
+#[test]
+fn leaving_out_the_effect_of_a_scene_changes_its_picture() {
+    for &(name, ..) in SCENES {
+        let (path, folder) = (repository(&scene(name)), Folder::new());
+        let options = ["--size", "48x32", "--spp", "8"];
+        let whole = folder.render(&path, &options);
+        let without = folder.render(&path, &[&options[..], &["--without", name]].concat());
+        assert!(!whole.samples().eq(without.samples()), "{name}");
+    }
+}
