@@ -125,8 +125,11 @@ fn check<T: Real + Spectrum<Real = T>>(share: f64) {
         if path.extension().is_none_or(|e| e != "jsonl") {
             continue;
         }
-        // An interpreter takes every sixteenth row.
+        // An interpreter takes every sixteenth row, and none whose value is an integral over thousands of calls.
         let step = if cfg!(miri) { 16 } else { 1 };
+        if cfg!(miri) && path.ends_with("albedo.jsonl") {
+            continue;
+        }
         for line in fs::read_to_string(&path).unwrap().lines().step_by(step) {
             let row: Value = serde_json::from_str(line).unwrap();
             let answer = serde_json::from_str::<Row>(line).unwrap().answer::<T>().ok();
@@ -145,7 +148,7 @@ fn check<T: Real + Spectrum<Real = T>>(share: f64) {
             }
         }
     }
-    assert!(rows > if cfg!(miri) { 500 } else { 7900 }, "only {rows} rows were found");
+    assert!(rows > if cfg!(miri) { 480 } else { 7900 }, "only {rows} rows were found");
     assert!(misses.is_empty(), "of {rows} rows these miss their bound:\n{}", misses.join("\n"));
 }
 
