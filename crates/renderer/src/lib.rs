@@ -20,6 +20,7 @@
 //! #     materials: Default::default(),
 //! #     textures: Default::default(),
 //! #     lights: vec![Light::Constant(ConstantLight { radiance })],
+//! #     media: Default::default(),
 //! #     camera: Camera::new(pinhole, view, 0.01, 1e4, [8, 8])?,
 //! #     film: Film::new([8, 8]),
 //! #     sampling: SamplingSettings::default(),

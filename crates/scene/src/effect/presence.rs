@@ -7,6 +7,7 @@ use super::Effect;
 use crate::Scene;
 use crate::light::{Light, LightId};
 use crate::material::{Material, MaterialId, PlasticSurface};
+use crate::medium::{Extinction, Medium, MediumId, Phase};
 use crate::texture::{Texture, TextureId};
 
 /// A part of a scene that calls for an effect.
@@ -18,6 +19,8 @@ pub enum Element {
     Texture(TextureId),
     /// A light.
     Light(LightId),
+    /// A participating medium.
+    Medium(MediumId),
     /// The instances of groups of shapes.
     Instances,
     /// The camera.
@@ -40,7 +43,8 @@ pub struct Presence {
 impl Scene {
     /// The effects that the scene calls for, in the order of the vocabulary.
     ///
-    /// A material counts if a shape is made of it, a texture if such a material or a light uses it.
+    /// A material counts if a shape is made of it, a texture if such a material or a light uses it, a
+    /// medium if paths know media and a shape bounds it or the camera stands in it.
     pub fn effects(&self) -> Vec<Presence> {
         let mut found = BTreeMap::new();
         for (effect, because) in self.causes() {
@@ -81,6 +85,10 @@ impl Scene {
                 Some(Texture::Constant(_)) | None => continue,
             };
             causes.push((effect, Element::Texture(id)));
+        }
+        for id in self.media_in_use() {
+            let Some(medium) = self.media.get(id) else { continue };
+            causes.extend(effects_of_medium(medium).map(|effect| (effect, Element::Medium(id))));
         }
         let instances = self.geometry.instance_count();
         causes.extend((0..instances).map(|_| (Effect::Instancing, Element::Instances)));
@@ -128,6 +136,16 @@ fn effect_of_light(light: &Light) -> Effect {
         Light::Constant(_) => Effect::ConstantBackground,
         Light::Environment(_) => Effect::EnvironmentMap,
     }
+}
+
+fn effects_of_medium(medium: &Medium) -> impl Iterator<Item = Effect> {
+    let kind = match medium.extinction {
+        Extinction::Homogeneous(_) => Effect::HomogeneousMedium,
+        Extinction::Heterogeneous(_) => Effect::HeterogeneousMedium,
+    };
+    let coloured = medium.is_coloured().then_some(Effect::ColouredExtinction);
+    let anisotropic = (medium.phase != Phase::Isotropic).then_some(Effect::AnisotropicScattering);
+    [Some(kind), coloured, anisotropic].into_iter().flatten()
 }
 
 fn effects_of_material(material: &Material) -> &'static [Effect] {

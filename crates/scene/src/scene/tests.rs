@@ -30,6 +30,7 @@ fn parts() -> SceneParts {
         materials: Materials::default(),
         textures: Textures::default(),
         lights: vec![],
+        media: Media::default(),
         camera: camera(),
         film: Film::new([4, 3]),
         sampling: SamplingSettings::default(),
@@ -48,7 +49,12 @@ fn lit_by(shape: Shape, radiance: impl FnOnce(&mut Textures) -> TextureId) -> Sc
     builder.add_shape(Shape::Rectangle(Rectangle::new(&wide).expect("a floor")));
     let emitter = builder.add_shape(shape);
     parts.geometry = builder.build();
-    let surface = |light, name: &str| SurfaceInfo { material: grey, light, name: name.into() };
+    let surface = |light, name: &str| SurfaceInfo {
+        material: grey,
+        light,
+        boundary: None,
+        name: name.into(),
+    };
     parts.surfaces = vec![surface(None, "floor"), surface(Some(LightId(0)), "emitter")];
     parts.lights = vec![Light::Area(AreaLight { shape: emitter, radiance })];
     Scene::new(parts).expect("a scene")
@@ -237,7 +243,8 @@ fn parts_that_do_not_fit_are_refused() {
         change(&mut parts);
         Scene::new(parts).err()
     };
-    let info = SurfaceInfo { material: MaterialId(0), light: None, name: "lonely".into() };
+    let info =
+        SurfaceInfo { material: MaterialId(0), light: None, boundary: None, name: "lonely".into() };
     assert_eq!(
         refused(&|p| p.surfaces.push(info.clone())),
         Some(InvalidScene::SurfaceCount { surfaces: 1, shapes: 0 })
