@@ -58,6 +58,7 @@
 //! No bidirectional methods, no denoising, no tone mapping, no files: pictures leave as linear
 //! radiance.
 
+mod configuration;
 mod features;
 mod film;
 pub mod image_metrics;

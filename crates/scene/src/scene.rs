@@ -128,15 +128,19 @@ impl Scene {
         })
     }
 
-    /// The media that paths meet: those on a side of a shape, and that around the camera; none where
-    /// [paths know no media](PathSettings::volumes).
+    /// The media on a side of a shape, and that around the camera. Paths meet them if they
+    /// [know media](PathSettings::volumes).
     pub fn media_in_use(&self) -> BTreeSet<MediumId> {
-        if !self.path.volumes {
-            return BTreeSet::new();
-        }
         let sides = |boundary: Boundary| [boundary.interior, boundary.exterior];
         let of_shapes = self.surfaces.iter().filter_map(|s| s.boundary).flat_map(sides);
         of_shapes.chain([self.media.around_camera]).flatten().collect()
+    }
+
+    /// Whether there is anything between the surfaces, or light that passes one straight on: what
+    /// [paths that know media](PathSettings::volumes) treat differently from others.
+    pub fn has_volumes(&self) -> bool {
+        let may_pass = |surface: &SurfaceInfo| self.materials.may_pass(surface.material);
+        !self.media_in_use().is_empty() || self.surfaces.iter().any(may_pass)
     }
 
     /// The reflection model at a point looked at from one side, for directions in its shading frame.

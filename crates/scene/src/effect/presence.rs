@@ -87,7 +87,7 @@ impl Scene {
             causes.push((effect, Element::Texture(id)));
         }
         for id in self.media_in_use() {
-            let Some(medium) = self.media.get(id) else { continue };
+            let Some(medium) = self.media.get(id).filter(|_| path.volumes) else { continue };
             causes.extend(effects_of_medium(medium).map(|effect| (effect, Element::Medium(id))));
         }
         let instances = self.geometry.instance_count();

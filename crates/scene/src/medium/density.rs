@@ -53,7 +53,7 @@ impl Density {
 
     /// The parts of a ray that lie in the box, in order, each with a bound of the extinction there.
     #[inline]
-    pub fn along(&self, ray: &Ray) -> impl Iterator<Item = Stretch> + '_ {
+    pub fn along<'a>(&'a self, ray: &Ray) -> impl Iterator<Item = Stretch> + use<'a> {
         self.majorants.along(ray.origin, ray.direction, ray.t_max)
     }
 }
