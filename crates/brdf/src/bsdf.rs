@@ -102,6 +102,15 @@ pub trait Bsdf {
     fn albedo(&self, _wo: BsdfVec<Self>) -> Option<Self::Color> {
         None
     }
+
+    /// The share of light that goes straight on as if there were no surface: the mean weight of the
+    /// samples of a delta lobe with `wi = −wo` and η = 1. A shadow ray carries it past the surface.
+    ///
+    /// The provided one is that of a model that lets nothing pass so.
+    #[inline]
+    fn pass_through(&self, _wo: BsdfVec<Self>) -> Self::Color {
+        Self::Color::black()
+    }
 }
 
 /// The component type of a model's colours.

@@ -20,6 +20,7 @@
 //! #     materials: Default::default(),
 //! #     textures: Default::default(),
 //! #     lights: vec![Light::Constant(ConstantLight { radiance })],
+//! #     media: Default::default(),
 //! #     camera: Camera::new(pinhole, view, 0.01, 1e4, [8, 8])?,
 //! #     film: Film::new([8, 8]),
 //! #     sampling: SamplingSettings::default(),
@@ -57,6 +58,7 @@
 //! No bidirectional methods, no denoising, no tone mapping, no files: pictures leave as linear
 //! radiance.
 
+mod configuration;
 mod features;
 mod film;
 pub mod image_metrics;

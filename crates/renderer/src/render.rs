@@ -5,15 +5,15 @@ use core::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
 use etendue_math::Spectrum;
-use etendue_sampling::{Decision, Dimension, Independent, Sampler, Sobol};
+use etendue_sampling::{Decision, Dimension, Sampler};
 use etendue_scene::geometry::{Ray, Rays, Task};
 use etendue_scene::material::PreparedMaterials;
-use etendue_scene::scene::SamplerKind;
 use etendue_scene::{Color, Scene};
 
+use crate::configuration::Configured;
 use crate::film::{FilterSampler, Image, PixelFilter, PixelSum};
 use crate::light_sampler::LightSampler;
-use crate::path::PathTracer;
+use crate::path::{PathTracer, Transport, TransportKind};
 use crate::settings::RenderSettings;
 use crate::statistics::{RayCounts, SampleAddress, Statistics};
 use crate::tile::Tile;
@@ -25,6 +25,7 @@ use crate::tile::Tile;
 pub struct Renderer<'a> {
     pub(crate) scene: &'a Scene,
     pub(crate) settings: RenderSettings,
+    pub(crate) transport: TransportKind,
     materials: PreparedMaterials<'a>,
     lights: LightSampler,
     pub(crate) filter: FilterSampler,
@@ -81,7 +82,8 @@ impl<'a> Renderer<'a> {
         let materials = PreparedMaterials::new(&scene.materials, &scene.textures);
         let lights = LightSampler::new(scene);
         let filter = FilterSampler::new(&scene.film);
-        Ok(Self { scene, settings, materials, lights, filter, pool })
+        let transport = TransportKind::of(scene, &settings);
+        Ok(Self { scene, settings, transport, materials, lights, filter, pool })
     }
 
     /// Number of threads that render.
@@ -100,21 +102,7 @@ impl<'a> Renderer<'a> {
     /// The radiance of one sample, weighted by the filter: what the picture's pixel is the mean of.
     /// `pixel` is a column and a row of the full film, `index` that of a [`SampleAddress`].
     pub fn sample(&self, pixel: [u32; 2], index: u64) -> Color {
-        match self.settings.sampler {
-            SamplerKind::Independent => self.sample_with::<Independent>(pixel, index),
-            SamplerKind::Sobol => self.sample_with::<Sobol>(pixel, index),
-        }
-    }
-
-    fn sample_with<S: Sampler>(&self, pixel: [u32; 2], index: u64) -> Color {
-        let points = S::at(self.settings.seed, pixel, index);
-        let filter = self.filter.pixel(pixel);
-        self.path_sample(
-            &self.tracer(&self.scene.geometry),
-            &filter,
-            &points,
-            &mut RayCounts::default(),
-        )
+        self.configured(OneSample { renderer: self, pixel, index })
     }
 
     /// Renders the given tiles, in this order.
@@ -124,13 +112,10 @@ impl<'a> Renderer<'a> {
         report: &(dyn Fn(Progress) + Sync),
         cancel: &AtomicBool,
     ) -> Rendering {
-        match self.settings.sampler {
-            SamplerKind::Independent => self.render_with::<Independent>(tiles, report, cancel),
-            SamplerKind::Sobol => self.render_with::<Sobol>(tiles, report, cancel),
-        }
+        self.configured(RenderTiles { renderer: self, tiles, report, cancel })
     }
 
-    fn render_with<S: Sampler>(
+    fn render_with<S: Sampler, T: Transport>(
         &self,
         tiles: &[Tile],
         report: &(dyn Fn(Progress) + Sync),
@@ -143,7 +128,7 @@ impl<'a> Renderer<'a> {
             progress: Progress { finished: 0, total: tiles.len() },
         });
         self.share_out(tiles, &|| cancel.load(Ordering::Relaxed), |&tile| {
-            let task = RenderTile::<S> { renderer: self, tile, points: PhantomData };
+            let task = RenderTile::<S, T> { renderer: self, tile, configuration: PhantomData };
             let (pixels, statistics) = self.scene.geometry.run(task);
             // Merging is the same in any order. A poisoned lock means that `report` panicked
             // on another thread, whose tile is complete.
@@ -183,7 +168,7 @@ impl<'a> Renderer<'a> {
     }
 
     #[inline(always)]
-    fn render_pixel<S: Sampler, R: Rays>(
+    fn render_pixel<S: Sampler, T: Transport, R: Rays>(
         &self,
         tracer: &PathTracer<'_, '_, R>,
         pixel: [u32; 2],
@@ -193,7 +178,8 @@ impl<'a> Renderer<'a> {
         let mut sum = PixelSum::default();
         for sample in 0..self.settings.samples_per_pixel {
             let points = S::at(self.settings.seed, pixel, u64::from(sample));
-            let radiance = self.path_sample(tracer, &filter, &points, &mut statistics.rays);
+            let radiance =
+                self.path_sample::<S, T, R>(tracer, &filter, &points, &mut statistics.rays);
             if !sum.add(radiance) {
                 let [column, row] = pixel;
                 statistics.non_finite.record(SampleAddress {
@@ -208,7 +194,7 @@ impl<'a> Renderer<'a> {
     }
 
     #[inline(always)]
-    pub(crate) fn path_sample<S: Sampler, R: Rays>(
+    pub(crate) fn path_sample<S: Sampler, T: Transport, R: Rays>(
         &self,
         tracer: &PathTracer<'_, '_, R>,
         filter: &PixelFilter<'_>,
@@ -216,7 +202,7 @@ impl<'a> Renderer<'a> {
         rays: &mut RayCounts,
     ) -> Color {
         let (ray, weight) = self.camera_ray(filter, points);
-        tracer.radiance(ray, points, rays).scale(weight)
+        T::radiance(tracer, ray, points, rays).scale(weight)
     }
 
     /// The camera's ray of one sample, and the weight of the radiance that it finds.
@@ -237,14 +223,49 @@ impl<'a> Renderer<'a> {
     }
 }
 
-/// The rendering of one tile.
-struct RenderTile<'r, 'a, S> {
+/// One sample, by itself.
+struct OneSample<'r, 'a> {
     renderer: &'r Renderer<'a>,
-    tile: Tile,
-    points: PhantomData<S>,
+    pixel: [u32; 2],
+    index: u64,
 }
 
-impl<S: Sampler> Task for RenderTile<'_, '_, S> {
+impl Configured for OneSample<'_, '_> {
+    type Output = Color;
+
+    fn run<S: Sampler, T: Transport>(self) -> Color {
+        let Self { renderer, pixel, index } = self;
+        let points = S::at(renderer.settings.seed, pixel, index);
+        let filter = renderer.filter.pixel(pixel);
+        let tracer = renderer.tracer(&renderer.scene.geometry);
+        renderer.path_sample::<S, T, _>(&tracer, &filter, &points, &mut RayCounts::default())
+    }
+}
+
+/// The rendering of some tiles.
+struct RenderTiles<'r, 'a> {
+    renderer: &'r Renderer<'a>,
+    tiles: &'r [Tile],
+    report: &'r (dyn Fn(Progress) + Sync),
+    cancel: &'r AtomicBool,
+}
+
+impl Configured for RenderTiles<'_, '_> {
+    type Output = Rendering;
+
+    fn run<S: Sampler, T: Transport>(self) -> Rendering {
+        self.renderer.render_with::<S, T>(self.tiles, self.report, self.cancel)
+    }
+}
+
+/// The rendering of one tile.
+struct RenderTile<'r, 'a, S, T> {
+    renderer: &'r Renderer<'a>,
+    tile: Tile,
+    configuration: PhantomData<(S, T)>,
+}
+
+impl<S: Sampler, T: Transport> Task for RenderTile<'_, '_, S, T> {
     type Output = (Vec<Color>, Statistics);
 
     #[inline(always)]
@@ -253,7 +274,7 @@ impl<S: Sampler> Task for RenderTile<'_, '_, S> {
         let mut statistics = Statistics::default();
         let mut pixels = Vec::new();
         for pixel in self.tile.pixels() {
-            pixels.push(self.renderer.render_pixel::<S, R>(&tracer, pixel, &mut statistics));
+            pixels.push(self.renderer.render_pixel::<S, T, R>(&tracer, pixel, &mut statistics));
         }
         (pixels, statistics)
     }

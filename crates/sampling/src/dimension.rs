@@ -32,6 +32,10 @@ pub enum Decision {
     Distance = 32,
     /// Direction of scattering in a medium.
     Phase = 33,
+    /// Tentative collisions on the way through a medium of varying density.
+    Tracking = 34,
+    /// The same along a shadow ray.
+    ShadowTracking = 35,
 }
 
 /// One random decision of a path: which vertex takes it, and what it is about.

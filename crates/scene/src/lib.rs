@@ -16,6 +16,7 @@ pub mod light;
 #[cfg(feature = "std")]
 pub mod load;
 pub mod material;
+pub mod medium;
 #[cfg(feature = "std")]
 pub mod mitsuba;
 pub mod scene;

@@ -4,6 +4,7 @@ mod check;
 mod lighting;
 mod settings;
 
+use alloc::collections::BTreeSet;
 use alloc::string::String;
 use alloc::vec::Vec;
 
@@ -14,6 +15,7 @@ use crate::film::Film;
 use crate::geometry::{Geometry, SurfacePoint};
 use crate::light::{Light, LightId};
 use crate::material::{MaterialId, Materials, PreparedBsdf, Side};
+use crate::medium::{Boundary, Media, MediumId};
 use crate::texture::Textures;
 
 pub use check::InvalidScene;
@@ -26,6 +28,8 @@ pub struct SurfaceInfo {
     pub material: MaterialId,
     /// The area light that it is.
     pub light: Option<LightId>,
+    /// The media on its sides; none where it lies within whatever is around it.
+    pub boundary: Option<Boundary>,
     /// What the scene file calls it, for messages.
     pub name: String,
 }
@@ -43,6 +47,8 @@ pub struct SceneParts {
     pub textures: Textures,
     /// Lights, in the order of [`LightId`].
     pub lights: Vec<Light>,
+    /// Participating media.
+    pub media: Media,
     /// Camera.
     pub camera: Camera,
     /// Film.
@@ -68,6 +74,8 @@ pub struct Scene {
     pub textures: Textures,
     /// Lights, in the order of [`LightId`].
     pub lights: Vec<Light>,
+    /// Participating media.
+    pub media: Media,
     /// Camera.
     pub camera: Camera,
     /// Film.
@@ -94,6 +102,7 @@ impl Scene {
             materials,
             textures,
             lights,
+            media,
             camera,
             film,
             sampling,
@@ -108,6 +117,7 @@ impl Scene {
             materials,
             textures,
             lights,
+            media,
             camera,
             film,
             sampling,
@@ -133,6 +143,21 @@ impl Scene {
             surface.light = surface.light.and_then(|light| renumbered[light.0 as usize]);
         }
         self.infinite_lights = infinite(&self.lights);
+    }
+
+    /// The media on a side of a shape, and that around the camera. Paths meet them if they
+    /// [know media](PathSettings::volumes).
+    pub fn media_in_use(&self) -> BTreeSet<MediumId> {
+        let sides = |boundary: Boundary| [boundary.interior, boundary.exterior];
+        let of_shapes = self.surfaces.iter().filter_map(|s| s.boundary).flat_map(sides);
+        of_shapes.chain([self.media.around_camera]).flatten().collect()
+    }
+
+    /// Whether there is anything between the surfaces, or light that passes one straight on: what
+    /// [paths that know media](PathSettings::volumes) treat differently from others.
+    pub fn has_volumes(&self) -> bool {
+        let may_pass = |surface: &SurfaceInfo| self.materials.may_pass(surface.material);
+        !self.media_in_use().is_empty() || self.surfaces.iter().any(may_pass)
     }
 
     /// The reflection model at a point looked at from one side, for directions in its shading frame.

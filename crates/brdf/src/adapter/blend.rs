@@ -132,6 +132,12 @@ impl<A: Bsdf, B: Bsdf<Color = A::Color>> Bsdf for Blend<A, B> {
         let (w, rest) = (self.weight, BsdfReal::<A>::ONE - self.weight);
         Some(self.first.albedo(wo)?.scale(rest) + self.second.albedo(wo)?.scale(w))
     }
+
+    #[inline]
+    fn pass_through(&self, wo: BsdfVec<Self>) -> A::Color {
+        let (w, rest) = (self.weight, BsdfReal::<A>::ONE - self.weight);
+        self.first.pass_through(wo).scale(rest) + self.second.pass_through(wo).scale(w)
+    }
 }
 
 /// The entry of the model in the [registry](crate::registry).

@@ -81,6 +81,13 @@ impl<B: Bsdf> Bsdf for Mask<B> {
             if exists(wo) { BsdfReal::<B>::ONE - self.opacity } else { BsdfReal::<B>::ZERO };
         Some(self.inner.albedo(wo)?.scale(self.opacity) + B::Color::splat(through))
     }
+
+    #[inline]
+    fn pass_through(&self, wo: BsdfVec<Self>) -> B::Color {
+        let through =
+            if exists(wo) { BsdfReal::<B>::ONE - self.opacity } else { BsdfReal::<B>::ZERO };
+        self.inner.pass_through(wo).scale(self.opacity) + B::Color::splat(through)
+    }
 }
 
 /// The entry of the model in the [registry](crate::registry).
@@ -99,7 +106,7 @@ pub(crate) const INFO: ModelInfo = ModelInfo {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Lambert, Reflectance, laws};
+    use crate::{Blend, Ior, Lambert, Null, Reflectance, SmoothDielectric, ThinDielectric, laws};
     use etendue_math::glam::DVec3;
 
     fn leaf(opacity: f64) -> Mask<Lambert<f64>> {
@@ -113,6 +120,38 @@ mod tests {
         laws::total(&leaf(0.3));
         laws::total(&leaf(0.0));
         laws::total(&leaf(1.0));
+    }
+
+    #[test]
+    fn shadow_rays_carry_what_sampling_lets_pass() {
+        let pane = ThinDielectric::<f64>::new(Ior::new(1.5).unwrap());
+        let matched = SmoothDielectric::<f64>::new(Ior::new(1.0).unwrap());
+        let glass = SmoothDielectric::<f64>::new(Ior::new(1.5).unwrap());
+        let half = Opacity::new(0.5).unwrap();
+        for wo in [DVec3::new(0.6, 0.0, 0.8), DVec3::new(0.0, 0.6, -0.8), DVec3::Z] {
+            passes(&leaf(0.3), wo);
+            passes(&pane, wo);
+            passes(&matched, wo);
+            passes(&glass, wo);
+            passes(&Null::<f64>::new(), wo);
+            passes(&Mask::new(pane, half), wo);
+            passes(&Mask::new(matched, half), wo);
+            passes(&Blend::new(pane, glass, half), wo);
+        }
+    }
+
+    /// Compares with the mean over choices of a lobe of what goes straight on.
+    fn passes<B: Bsdf<Color = f64>>(model: &B, wo: DVec3) {
+        const N: u32 = 1000;
+        let straight = |i| {
+            let sample = model.sample(wo, (f64::from(i) + 0.5) / f64::from(N), [0.5; 2])?;
+            let is_delta = matches!(sample.density, Density::Delta(_));
+            (is_delta && sample.wi == -wo && sample.eta == 1.0).then_some(sample.weight)
+        };
+        let mean = (0..N).filter_map(straight).sum::<f64>() / f64::from(N);
+        // Each of at most three ends of a lobe falls within one of N intervals.
+        let found = model.pass_through(wo);
+        assert!((found - mean).abs() < 3.0 / f64::from(N), "{found} {mean}");
     }
 
     #[test]

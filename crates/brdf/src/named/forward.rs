@@ -29,6 +29,9 @@ impl<B: Bsdf + ?Sized> Bsdf for Box<B> {
     fn albedo(&self, wo: BsdfVec<Self>) -> Option<B::Color> {
         (**self).albedo(wo)
     }
+    fn pass_through(&self, wo: BsdfVec<Self>) -> B::Color {
+        (**self).pass_through(wo)
+    }
 }
 
 /// A plastic together with the table it borrows.

@@ -53,7 +53,12 @@ impl<C: Spectrum> Bsdf for Null<C> {
 
     #[inline]
     fn albedo(&self, wo: BsdfVec<Self>) -> Option<C> {
-        Some(if exists(wo) { C::white() } else { C::black() })
+        Some(self.pass_through(wo))
+    }
+
+    #[inline]
+    fn pass_through(&self, wo: BsdfVec<Self>) -> C {
+        if exists(wo) { C::white() } else { C::black() }
     }
 }
 

@@ -115,6 +115,17 @@ impl<C: Spectrum> Bsdf for SmoothDielectric<C> {
         let t = (one - r) / (index.eta() * index.eta());
         Some(self.specular_reflectance.scale(r) + self.specular_transmittance.scale(t))
     }
+
+    /// Everything that is transmitted where the indices are equal, else nothing.
+    #[inline]
+    fn pass_through(&self, wo: BsdfVec<Self>) -> C {
+        let is_matched = self.eta == <C::Real as Real>::ONE;
+        if is_matched && (above(wo) || above(-wo)) {
+            self.specular_transmittance
+        } else {
+            C::black()
+        }
+    }
 }
 
 /// The entry of the model in the [registry](crate::registry).

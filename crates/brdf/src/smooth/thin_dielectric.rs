@@ -97,6 +97,15 @@ impl<C: Spectrum> Bsdf for ThinDielectric<C> {
         let [r, t] = self.shares(wo.z().abs());
         Some(self.specular_reflectance.scale(r) + self.specular_transmittance.scale(t))
     }
+
+    #[inline]
+    fn pass_through(&self, wo: BsdfVec<Self>) -> C {
+        if !above(wo) && !above(-wo) {
+            return C::black();
+        }
+        let [_, t] = self.shares(wo.z().abs());
+        self.specular_transmittance.scale(t)
+    }
 }
 
 /// The entry of the model in the [registry](crate::registry).

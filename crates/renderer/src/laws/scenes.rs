@@ -8,6 +8,7 @@ use etendue_scene::film::{Film, ReconstructionFilter};
 use etendue_scene::geometry::{GeometryBuilder, Rectangle, Shape, Sphere, Transform};
 use etendue_scene::light::{AreaLight, ConstantLight, Light, LightId};
 use etendue_scene::material::{ConductorIndex, Material, MaterialId, Materials, Roughness};
+use etendue_scene::medium::Media;
 use etendue_scene::scene::{PathSettings, SamplerKind, SamplingSettings, SceneParts, SurfaceInfo};
 use etendue_scene::texture::Textures;
 use etendue_scene::{Color, Scene};
@@ -22,6 +23,7 @@ pub(super) struct Sketch {
     materials: Materials,
     pub(super) textures: Textures,
     lights: Vec<Light>,
+    pub(super) media: Media,
 }
 
 impl Sketch {
@@ -53,7 +55,12 @@ impl Sketch {
 
     pub(super) fn shape(&mut self, shape: Shape, material: MaterialId) {
         self.geometry.add_shape(shape);
-        self.surfaces.push(SurfaceInfo { material, light: None, name: String::new() });
+        self.surfaces.push(SurfaceInfo {
+            material,
+            light: None,
+            boundary: None,
+            name: String::new(),
+        });
     }
 
     pub(super) fn emitter(&mut self, shape: Shape, material: MaterialId, radiance: f32) {
@@ -61,7 +68,7 @@ impl Sketch {
         let shape = self.geometry.add_shape(shape);
         let light = Some(LightId(self.lights.len() as u32));
         self.lights.push(Light::Area(AreaLight { shape, radiance }));
-        self.surfaces.push(SurfaceInfo { material, light, name: String::new() });
+        self.surfaces.push(SurfaceInfo { material, light, boundary: None, name: String::new() });
     }
 
     pub(super) fn light(&mut self, light: Light) {
@@ -86,6 +93,7 @@ impl Sketch {
             materials: self.materials,
             textures: self.textures,
             lights: self.lights,
+            media: self.media,
             camera: Camera::new(projection, to_world, 1e-3, 1e4, size).expect("a camera"),
             film,
             sampling: SamplingSettings::default(),

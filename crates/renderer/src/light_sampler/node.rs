@@ -118,7 +118,11 @@ impl Node {
             return 0.0;
         }
         let cos_i = along_normal * per_distance;
-        let cos_i = if sides == Sides::Both { cos_i.abs() } else { cos_i };
+        let cos_i = match sides {
+            Sides::Front => cos_i,
+            Sides::Both => cos_i.abs(),
+            Sides::Around => 1.0,
+        };
         let incident = Angle::from_cos(cos_i).minus(bound);
         if incident.cos < -GRAZING {
             return 0.0;

@@ -3,7 +3,7 @@
 use etendue_brdf::{Bsdf, Density};
 use etendue_math::Spectrum;
 use etendue_math::glam::Vec3;
-use etendue_sampling::{Decision, Sampler, mis};
+use etendue_sampling::{Decision, Dimension, Sampler, mis};
 use etendue_scene::Color;
 use etendue_scene::geometry::{Rays, SurfacePoint};
 use etendue_scene::light::LightSample;
@@ -22,15 +22,27 @@ impl<R: Rays> PathTracer<'_, '_, R> {
         points: &S,
         rays: &mut RayCounts,
     ) -> Color {
-        if self.light_sampling == LightSampling::Useless || !vertex.bsdf.lobes().continuous {
-            return Color::black();
+        match self.unoccluded_light(vertex, points) {
+            Some((light, sample)) if !self.occluded(vertex.point, &sample, rays) => light,
+            _ => Color::black(),
         }
-        let Some(sample) = self.sample_light(vertex, points) else {
-            return Color::black();
-        };
+    }
+
+    /// The same without regard to what lies between, and the light sample that it comes by; `None`
+    /// for no light.
+    #[inline(always)]
+    pub(super) fn unoccluded_light<S: Sampler>(
+        &self,
+        vertex: &Vertex<'_, '_>,
+        points: &S,
+    ) -> Option<(Color, LightSample)> {
+        if self.light_sampling == LightSampling::Useless || !vertex.bsdf.lobes().continuous {
+            return None;
+        }
+        let sample = self.sample_light(vertex.depth, &vertex.receiver, points)?;
         let wi = vertex.point.shading.to_local(sample.direction);
         if self.is_inconsistent(vertex, sample.direction, wi) {
-            return Color::black();
+            return None;
         }
         let (f, scattering_density) = vertex.bsdf.eval_pdf(vertex.wo, wi);
         let scale = match sample.density {
@@ -38,30 +50,34 @@ impl<R: Rays> PathTracer<'_, '_, R> {
             Density::Continuous(p) => self.light_weight(p, scattering_density) / p,
         };
         let light = f * sample.radiance * (scale * wi.z.abs());
-        if light.is_black() || self.occluded(vertex.point, &sample, rays) {
-            return Color::black();
-        }
-        light
+        (!light.is_black()).then_some((light, sample))
     }
 
-    /// A light sample; its density accounts for the choice of the light.
+    /// A light sample for the vertex with address `depth`; its density accounts for the choice of the
+    /// light.
     #[inline(always)]
-    fn sample_light<S: Sampler>(&self, vertex: &Vertex<'_, '_>, points: &S) -> Option<LightSample> {
+    pub(super) fn sample_light<S: Sampler>(
+        &self,
+        depth: u16,
+        receiver: &Receiver,
+        points: &S,
+    ) -> Option<LightSample> {
+        let dimension = |decision| Dimension::vertex(depth, decision);
         let u = if self.lights.count() > 1 {
-            points.sample_1d(vertex.dimension(Decision::LightChoice))
+            points.sample_1d(dimension(Decision::LightChoice))
         } else {
             0.0
         };
-        let choice = self.lights.choose(&vertex.receiver, u)?;
-        let u = points.sample_2d(vertex.dimension(Decision::LightPoint));
+        let choice = self.lights.choose(receiver, u)?;
+        let u = points.sample_2d(dimension(Decision::LightPoint));
         let mut sample =
-            self.scene.sample_light(choice.light, choice.primitive, vertex.point, u)?;
+            self.scene.sample_light(choice.light, choice.primitive, receiver.position, u)?;
         sample.density = match sample.density {
             Density::Continuous(_)
                 if sample.target.is_none() && self.several_infinite_lights == Several::Yes =>
             {
                 let (radiance, density) =
-                    self.over_all_infinite_lights(Receiver { ..vertex.receiver }, sample.direction);
+                    self.over_all_infinite_lights(Receiver { ..*receiver }, sample.direction);
                 return Some(LightSample {
                     radiance,
                     density: Density::Continuous(density),
@@ -85,7 +101,7 @@ impl<R: Rays> PathTracer<'_, '_, R> {
 
     /// Weight of light that light sampling has found and that scattering could have found.
     #[inline(always)]
-    fn light_weight(&self, light_density: f32, scattering_density: f32) -> f32 {
+    pub(super) fn light_weight(&self, light_density: f32, scattering_density: f32) -> f32 {
         match self.strategy {
             Strategy::Mis => mis::power(light_density, scattering_density),
             Strategy::LightOnly => 1.0,

@@ -4,12 +4,15 @@ mod direct_light;
 mod first_hit;
 mod found_light;
 mod scatter;
+mod surfaces;
+mod transport;
+mod volumes;
 
 use etendue_brdf::Bsdf;
 use etendue_math::Spectrum;
 use etendue_math::glam::Vec3;
-use etendue_sampling::{Decision, Dimension, Sampler};
-use etendue_scene::geometry::{Ray, Rays, SurfacePoint};
+use etendue_sampling::{Decision, Dimension};
+use etendue_scene::geometry::{Hit, Ray, Rays, SurfacePoint};
 use etendue_scene::light::Light;
 use etendue_scene::material::{PreparedBsdf, PreparedMaterials, Side};
 use etendue_scene::scene::PathSettings;
@@ -20,6 +23,7 @@ use crate::settings::Strategy;
 use crate::statistics::RayCounts;
 
 pub(crate) use first_hit::FirstHit;
+pub(crate) use transport::{Surfaces, Transport, TransportKind, Volumes};
 
 /// Solves the rendering equation for one ray at a time.
 ///
@@ -34,7 +38,8 @@ pub(crate) use first_hit::FirstHit;
 /// # Source
 /// Kajiya, "The Rendering Equation", SIGGRAPH 1986; Veach, "Robust Monte Carlo Methods for Light
 /// Transport Simulation", 1997, chapters 9 and 10. Depth, roulette and hidden emitters count as
-/// in Mitsuba 3's `path`, pass-through surfaces included: each is a vertex of its own.
+/// in Mitsuba 3's `path`, pass-through surfaces included: each is a vertex of its own. With volumes
+/// they count as in its `volpath`: a surface that light passes straight on is no vertex.
 #[derive(Clone, Copy)]
 pub(crate) struct PathTracer<'a, 's, R> {
     rays: R,
@@ -66,7 +71,7 @@ enum Several {
 enum Arrival {
     /// By the camera or a delta lobe: light sampling could not have found the same light.
     Certain,
-    /// Scattered at a surface, with a density per steradian.
+    /// Scattered at a surface or in a medium, with a density per steradian.
     Scattered { receiver: Receiver, density: f32 },
 }
 
@@ -122,6 +127,8 @@ impl Walk {
 /// Whether a path goes on.
 enum Fate {
     Continues,
+    /// Straight on, as if there were no surface; told from the former only where that matters.
+    Passes,
     Ends,
 }
 
@@ -151,41 +158,12 @@ impl<'a, 's, R: Rays> PathTracer<'a, 's, R> {
         }
     }
 
-    /// An estimate of the radiance that arrives along a ray of the camera.
+    /// The largest number of edges of a path.
     ///
-    /// Paths end after `u16::MAX` edges at the latest: random numbers have no more addresses.
+    /// `u16::MAX` at the latest: random numbers have no more addresses.
     #[inline(always)]
-    pub(crate) fn radiance<S: Sampler>(
-        &self,
-        camera_ray: Ray,
-        points: &S,
-        rays: &mut RayCounts,
-    ) -> Color {
-        let longest = self.settings.max_depth.unwrap_or(u32::MAX).min(u32::from(u16::MAX)) as u16;
-        let mut radiance = Color::black();
-        let mut walk = Walk::from_camera(camera_ray);
-        rays.camera += 1;
-        for depth in 1..=longest {
-            let Some(point) = self.next_surface(&mut walk, rays) else {
-                radiance += walk.throughput * self.escaped(&walk);
-                break;
-            };
-            radiance += walk.throughput * self.emitted(&walk, &point);
-            if depth == longest {
-                break;
-            }
-            let mut varying = None;
-            let vertex = self.vertex(depth, &point, walk.ray.direction, &mut varying);
-            if self.is_inconsistent(&vertex, -walk.ray.direction, vertex.wo) {
-                break;
-            }
-            radiance += walk.throughput * self.direct_light(&vertex, points, rays);
-            match self.scatter(&vertex, &mut walk, points) {
-                Fate::Continues => rays.indirect += 1,
-                Fate::Ends => break,
-            }
-        }
-        radiance
+    fn longest(&self) -> u16 {
+        self.settings.max_depth.unwrap_or(u32::MAX).min(u32::from(u16::MAX)) as u16
     }
 
     /// The surface that the ray meets; a camera that must not see emitters looks through them.
@@ -197,13 +175,19 @@ impl<'a, 's, R: Rays> PathTracer<'a, 's, R> {
             if !(self.hides_emitters(walk) && self.is_emitter(&point)) {
                 return Some(point);
             }
-            let far_end = walk.ray.at(walk.ray.t_max);
-            let onwards = point.spawn(walk.ray.direction);
-            // The far clipping plane stays where it is.
-            let t_max = if far_end.is_finite() { walk.ray.t_max - hit.t } else { f32::INFINITY };
-            walk.ray = Ray { t_max, ..onwards };
-            rays.camera += 1;
+            self.look_through(walk, &hit, &point, rays);
         }
+    }
+
+    /// Goes on behind a surface in the same direction.
+    #[inline(always)]
+    fn look_through(&self, walk: &mut Walk, hit: &Hit, point: &SurfacePoint, rays: &mut RayCounts) {
+        let far_end = walk.ray.at(walk.ray.t_max);
+        let onwards = point.spawn(walk.ray.direction);
+        // The far clipping plane stays where it is.
+        let t_max = if far_end.is_finite() { walk.ray.t_max - hit.t } else { f32::INFINITY };
+        walk.ray = Ray { t_max, ..onwards };
+        rays.camera += 1;
     }
 
     #[inline(always)]

@@ -3,15 +3,15 @@
 use etendue_brdf::{Bsdf, Density};
 use etendue_math::Spectrum;
 use etendue_math::glam::Vec3;
-use etendue_sampling::{Decision, Sampler};
+use etendue_sampling::{Decision, Dimension, Sampler};
 use etendue_scene::geometry::Rays;
 
-use super::{Arrival, Fate, PathTracer, Vertex, View, Walk};
+use super::{Arrival, Fate, PathTracer, Transport, Vertex, View, Walk};
 
 impl<R: Rays> PathTracer<'_, '_, R> {
     /// Chooses where the path goes on, and whether it does.
     #[inline(always)]
-    pub(super) fn scatter<S: Sampler>(
+    pub(super) fn scatter<T: Transport, S: Sampler>(
         &self,
         vertex: &Vertex<'_, '_>,
         walk: &mut Walk,
@@ -26,14 +26,18 @@ impl<R: Rays> PathTracer<'_, '_, R> {
         let Some(sample) = vertex.bsdf.sample(vertex.wo, u_lobe, u) else { return Fate::Ends };
         walk.throughput = walk.throughput * sample.weight;
         walk.eta *= sample.eta;
+        // A pass-through is the one delta direction that goes straight on.
+        let is_straight = matches!(sample.density, Density::Delta(_)) && sample.wi == -vertex.wo;
+        // Shadow rays have passed, too. A refracted ray may go straight on, but is no pass-through.
+        let passes = T::VOLUMES && is_straight && sample.eta == 1.0;
         walk.arrival = match sample.density {
+            Density::Delta(_) if passes => walk.arrival,
             Density::Delta(_) => Arrival::Certain,
             Density::Continuous(density) => {
                 Arrival::Scattered { receiver: vertex.receiver, density }
             }
         };
-        // A pass-through is the one delta direction that goes straight on.
-        if !(matches!(sample.density, Density::Delta(_)) && sample.wi == -vertex.wo) {
+        if !is_straight {
             walk.view = View::Scattered;
         }
         let direction = vertex.point.shading.to_world(sample.wi);
@@ -41,7 +45,10 @@ impl<R: Rays> PathTracer<'_, '_, R> {
             return Fate::Ends;
         }
         walk.ray = vertex.point.spawn(direction);
-        self.roulette(vertex, walk, points)
+        match self.roulette(vertex.depth, walk, points) {
+            Fate::Continues if passes => Fate::Passes,
+            fate => fate,
+        }
     }
 
     /// Whether strict normals forbid a direction, given in world and local coordinates: it lies on
@@ -64,17 +71,17 @@ impl<R: Rays> PathTracer<'_, '_, R> {
     ///
     /// η² undoes the compression of radiance inside a medium, which the way out reverses.
     #[inline(always)]
-    fn roulette<S: Sampler>(&self, vertex: &Vertex<'_, '_>, walk: &mut Walk, points: &S) -> Fate {
+    pub(super) fn roulette<S: Sampler>(&self, depth: u16, walk: &mut Walk, points: &S) -> Fate {
         let largest = walk.throughput.max_channel();
         // False for NaN, which goes on to be counted where it reaches the film.
         if largest <= 0.0 {
             return Fate::Ends;
         }
-        if u32::from(vertex.depth) < self.settings.roulette_depth {
+        if u32::from(depth) < self.settings.roulette_depth {
             return Fate::Continues;
         }
         let survival = (largest * walk.eta * walk.eta).min(0.95);
-        if points.sample_1d::<f32>(vertex.dimension(Decision::Roulette)) >= survival {
+        if points.sample_1d::<f32>(Dimension::vertex(depth, Decision::Roulette)) >= survival {
             return Fate::Ends;
         }
         walk.throughput = walk.throughput.scale(1.0 / survival);

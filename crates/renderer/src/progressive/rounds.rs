@@ -3,9 +3,8 @@
 use core::marker::PhantomData;
 use std::sync::{Mutex, PoisonError};
 
-use etendue_sampling::{Independent, Sampler, Sobol};
+use etendue_sampling::Sampler;
 use etendue_scene::geometry::{Rays, Task};
-use etendue_scene::scene::SamplerKind;
 
 use super::allocation::{dither, levels, merits};
 use super::canvas::{self, Canvas, CanvasTile};
@@ -14,7 +13,9 @@ use super::goal::{Goal, Halt};
 use super::half::Half;
 use super::image_error::ImageError;
 use super::schedule::{Schedule, Stage, UNIFORM};
+use crate::configuration::Configured;
 use crate::film::{Image, PixelSum};
+use crate::path::Transport;
 use crate::render::Renderer;
 use crate::statistics::{SampleAddress, Statistics};
 use crate::tile::Tile;
@@ -63,10 +64,7 @@ impl Renderer<'_> {
         report: &(dyn Fn(Advance) + Sync),
         halt: &(dyn Fn() -> Halt + Sync),
     ) -> ProgressiveRendering {
-        match self.settings.sampler {
-            SamplerKind::Independent => Rounds::<Independent>::new(self, report, halt).run(goal),
-            SamplerKind::Sobol => Rounds::<Sobol>::new(self, report, halt).run(goal),
-        }
+        self.configured(RunRounds { rounds: Rounds::new(self, report, halt), goal })
     }
 }
 
@@ -74,14 +72,28 @@ impl Renderer<'_> {
 impl Renderer<'_> {
     /// The mistake that the two halves avoid: each half is allocated by what it has found itself.
     pub(crate) fn render_guided_by_own_samples(&self, goal: &Goal) -> ProgressiveRendering {
-        let mut rounds = Rounds::<Independent>::new(self, &|_| (), &|| Halt::No);
+        let mut rounds = Rounds::new(self, &|_| (), &|| Halt::No);
         rounds.guides = [0, 1];
-        rounds.run(goal)
+        self.configured(RunRounds { rounds, goal })
+    }
+}
+
+/// The whole of a progressive render.
+struct RunRounds<'r, 'a> {
+    rounds: Rounds<'r, 'a>,
+    goal: &'r Goal,
+}
+
+impl Configured for RunRounds<'_, '_> {
+    type Output = ProgressiveRendering;
+
+    fn run<S: Sampler, T: Transport>(self) -> ProgressiveRendering {
+        self.rounds.run::<S, T>(self.goal)
     }
 }
 
 /// A progressive render under way.
-struct Rounds<'r, 'a, S> {
+struct Rounds<'r, 'a> {
     renderer: &'r Renderer<'a>,
     report: &'r (dyn Fn(Advance) + Sync),
     halt: &'r (dyn Fn() -> Halt + Sync),
@@ -93,10 +105,9 @@ struct Rounds<'r, 'a, S> {
     guides: [usize; 2],
     finished: Vec<Round>,
     statistics: Statistics,
-    points: PhantomData<fn() -> S>,
 }
 
-impl<'r, 'a, S: Sampler> Rounds<'r, 'a, S> {
+impl<'r, 'a> Rounds<'r, 'a> {
     fn new(
         renderer: &'r Renderer<'a>,
         report: &'r (dyn Fn(Advance) + Sync),
@@ -114,14 +125,13 @@ impl<'r, 'a, S: Sampler> Rounds<'r, 'a, S> {
             dither,
             finished: Vec::new(),
             statistics: Statistics::default(),
-            points: PhantomData,
         }
     }
 
-    fn run(mut self, goal: &Goal) -> ProgressiveRendering {
+    fn run<S: Sampler, T: Transport>(mut self, goal: &Goal) -> ProgressiveRendering {
         for stage in Schedule::new(goal) {
             self.levels = [0, 1].map(|half| self.levels_of(half, stage));
-            self.round();
+            self.round::<S, T>();
             let Some(error) = self.error().filter(|_| (self.halt)() == Halt::No) else { break };
             self.finished.push(Round { samples_per_pixel: self.samples_per_pixel(), error });
             (self.report)(self.advance());
@@ -170,7 +180,7 @@ impl<'r, 'a, S: Sampler> Rounds<'r, 'a, S> {
     }
 
     /// Brings every pixel to its level.
-    fn round(&mut self) {
+    fn round<S: Sampler, T: Transport>(&mut self) {
         let first = self.finished.is_empty();
         let halted = || match (self.halt)() {
             Halt::No => false,
@@ -182,14 +192,14 @@ impl<'r, 'a, S: Sampler> Rounds<'r, 'a, S> {
         let pixels = self.dither.len() as f64;
         self.renderer.share_out(&self.canvas.tiles, &halted, |piece: &CanvasTile| {
             let mut halves = piece.pixels.lock().unwrap_or_else(PoisonError::into_inner);
-            let task = ExtendTile::<S> {
+            let task = ExtendTile::<S, T> {
                 renderer: self.renderer,
                 tile: piece.tile,
                 halves: &mut halves,
                 canvas: &self.canvas,
                 levels: &self.levels,
                 halted: &halted,
-                points: PhantomData,
+                configuration: PhantomData,
             };
             let statistics = self.renderer.scene.geometry.run(task);
             let mut shared = done.lock().unwrap_or_else(PoisonError::into_inner);
@@ -205,17 +215,17 @@ impl<'r, 'a, S: Sampler> Rounds<'r, 'a, S> {
 }
 
 /// Bringing the pixels of one tile to their levels.
-struct ExtendTile<'t, 'r, 'a, S> {
+struct ExtendTile<'t, 'r, 'a, S, T> {
     renderer: &'r Renderer<'a>,
     tile: Tile,
     halves: &'t mut [[Half; 2]],
     canvas: &'t Canvas,
     levels: &'t [Vec<u8>; 2],
     halted: &'t (dyn Fn() -> bool + Sync),
-    points: PhantomData<fn() -> S>,
+    configuration: PhantomData<(S, T)>,
 }
 
-impl<S: Sampler> Task for ExtendTile<'_, '_, '_, S> {
+impl<S: Sampler, T: Transport> Task for ExtendTile<'_, '_, '_, S, T> {
     type Output = Statistics;
 
     #[inline(always)]
@@ -236,8 +246,12 @@ impl<S: Sampler> Task for ExtendTile<'_, '_, '_, S> {
                     for sample in halves[half].next_block() {
                         let sample = first + u64::from(sample);
                         let points = S::at(renderer.settings.seed, pixel, sample);
-                        let radiance =
-                            renderer.path_sample(&tracer, &filter, &points, &mut statistics.rays);
+                        let radiance = renderer.path_sample::<S, T, R>(
+                            &tracer,
+                            &filter,
+                            &points,
+                            &mut statistics.rays,
+                        );
                         if !block.add(radiance) {
                             let [column, row] = pixel;
                             statistics.non_finite.record(SampleAddress { row, column, sample });

@@ -10,6 +10,7 @@
 //! | [`uniform_hemisphere`] | z ≥ 0 | solid angle | 1/2π |
 //! | [`cosine_hemisphere`] | z ≥ 0, concentric and polar | solid angle | z/π |
 //! | [`cone`] | directions within a cap | solid angle | 1/Ω |
+//! | [`henyey_greenstein`] | all directions, around ±z | solid angle | (1 − g²)/(4π q^³ᐟ²) |
 //! | [`seen_sphere`] | directions that hit a sphere | solid angle | 1/Ω outside, from area inside |
 //! | [`triangle`] | barycentric coordinates | area | 1/A |
 //! | [`spherical_triangle`] | directions that hit a triangle | solid angle | 1/Ω |
@@ -23,6 +24,7 @@ pub mod area;
 pub mod cone;
 pub mod cosine_hemisphere;
 pub mod disk;
+pub mod henyey_greenstein;
 pub mod rectangle;
 pub mod seen_sphere;
 pub mod spherical_rectangle;

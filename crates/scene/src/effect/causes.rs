@@ -3,6 +3,7 @@
 use super::Effect;
 use crate::light::Light;
 use crate::material::{Material, PlasticSurface};
+use crate::medium::{Extinction, Medium, Phase};
 use crate::texture::{Texture, TextureId};
 
 /// The effect of a light.
@@ -65,4 +66,19 @@ pub(super) fn of_surface(material: &Material) -> Option<Effect> {
         Material::Null => Some(Effect::PassThrough),
         _ => None,
     }
+}
+
+/// What kind of medium it is.
+pub(super) fn of_extinction(medium: &Medium) -> Effect {
+    match medium.extinction {
+        Extinction::Homogeneous(_) => Effect::HomogeneousMedium,
+        Extinction::Heterogeneous(_) => Effect::HeterogeneousMedium,
+    }
+}
+
+/// The effects of a medium.
+pub(super) fn of_medium(medium: &Medium) -> impl Iterator<Item = Effect> {
+    let coloured = medium.is_coloured().then_some(Effect::ColouredExtinction);
+    let anisotropic = (medium.phase != Phase::Isotropic).then_some(Effect::AnisotropicScattering);
+    [Some(of_extinction(medium)), coloured, anisotropic].into_iter().flatten()
 }

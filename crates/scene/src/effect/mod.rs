@@ -43,6 +43,14 @@ pub enum Effect {
     BitmapTexture,
     /// Two textures in squares.
     CheckerboardTexture,
+    /// Matter of the same density everywhere, that scatters and absorbs.
+    HomogeneousMedium,
+    /// Matter whose density differs from place to place.
+    HeterogeneousMedium,
+    /// Matter that takes more of one colour than of another.
+    ColouredExtinction,
+    /// Matter that scatters forwards or backwards.
+    AnisotropicScattering,
     /// Shapes that stand in several places.
     Instancing,
     /// A lens with an extent, out of whose focus things blur.
@@ -55,7 +63,7 @@ pub enum Effect {
 
 impl Effect {
     /// The whole vocabulary.
-    pub const ALL: [Self; 19] = [
+    pub const ALL: [Self; 23] = [
         Self::IndirectLight,
         Self::AreaLight,
         Self::PointLight,
@@ -71,6 +79,10 @@ impl Effect {
         Self::PassThrough,
         Self::BitmapTexture,
         Self::CheckerboardTexture,
+        Self::HomogeneousMedium,
+        Self::HeterogeneousMedium,
+        Self::ColouredExtinction,
+        Self::AnisotropicScattering,
         Self::Instancing,
         Self::DepthOfField,
         Self::HiddenEmitters,
@@ -95,6 +107,10 @@ impl Effect {
             Self::PassThrough => "pass-through",
             Self::BitmapTexture => "bitmap-texture",
             Self::CheckerboardTexture => "checkerboard-texture",
+            Self::HomogeneousMedium => "homogeneous-medium",
+            Self::HeterogeneousMedium => "heterogeneous-medium",
+            Self::ColouredExtinction => "coloured-extinction",
+            Self::AnisotropicScattering => "anisotropic-scattering",
             Self::Instancing => "instancing",
             Self::DepthOfField => "depth-of-field",
             Self::HiddenEmitters => "hidden-emitters",
@@ -138,6 +154,16 @@ impl Effect {
             Self::PassThrough => "a vertex of the path",
             Self::BitmapTexture => "four texels and a model of its own per surface met",
             Self::CheckerboardTexture => "a square found and a model of its own per surface met",
+            Self::HomogeneousMedium => {
+                "a random number per ray in it and a vertex per collision, shadow rays that stop at every surface"
+            }
+            Self::HeterogeneousMedium => {
+                "the same, with two random numbers and a look-up per tentative collision, also along shadow rays"
+            }
+            Self::ColouredExtinction => {
+                "a random number per sample and three exponentials per collision or way through"
+            }
+            Self::AnisotropicScattering => "a frame and a root per collision",
             Self::Instancing => "a ray transformed and a second hierarchy entered per instance met",
             Self::DepthOfField => "two random numbers and a point on the lens per sample",
             Self::HiddenEmitters => "a further ray behind every emitter that the camera sees",

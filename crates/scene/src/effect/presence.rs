@@ -6,10 +6,11 @@ use alloc::vec::Vec;
 use etendue_math::Spectrum;
 
 use super::Effect;
-use super::causes::{of_light, of_lobes, of_surface, of_texture};
+use super::causes::{of_light, of_lobes, of_medium, of_surface, of_texture};
 use crate::Scene;
 use crate::light::{Light, LightId};
 use crate::material::{Material, MaterialId};
+use crate::medium::MediumId;
 use crate::texture::{Texture, TextureId};
 
 /// A part of a scene that calls for an effect.
@@ -21,6 +22,8 @@ pub enum Element {
     Texture(TextureId),
     /// A light.
     Light(LightId),
+    /// A participating medium.
+    Medium(MediumId),
     /// The instances of groups of shapes.
     Instances,
     /// The camera.
@@ -43,7 +46,8 @@ pub struct Presence {
 impl Scene {
     /// The effects that the scene calls for, in the order of the vocabulary.
     ///
-    /// A material counts if a shape is made of it, a texture if such a material or a light uses it.
+    /// A material counts if a shape is made of it, a texture if such a material or a light uses it, a
+    /// medium if paths know media and a shape bounds it or the camera stands in it.
     pub fn effects(&self) -> Vec<Presence> {
         let mut found = BTreeMap::new();
         for (effect, because) in self.causes() {
@@ -85,6 +89,10 @@ impl Scene {
         for id in self.textures_in_use(&materials) {
             let effect = self.textures.get(id).and_then(of_texture);
             causes.extend(effect.map(|effect| (effect, Element::Texture(id))));
+        }
+        for id in self.media_in_use() {
+            let Some(medium) = self.media.get(id).filter(|_| path.volumes) else { continue };
+            causes.extend(of_medium(medium).map(|effect| (effect, Element::Medium(id))));
         }
         let instances = self.geometry.instance_count();
         causes.extend((0..instances).map(|_| (Effect::Instancing, Element::Instances)));

@@ -5,8 +5,9 @@ use alloc::collections::BTreeSet;
 use etendue_math::Spectrum;
 
 use super::Effect;
-use super::causes::{of_light, of_lobes, of_surface, of_texture};
+use super::causes::{of_extinction, of_light, of_lobes, of_surface, of_texture};
 use crate::material::{Material, MaterialId};
+use crate::medium::{MediumId, Phase};
 use crate::texture::TextureId;
 use crate::{Color, Scene};
 
@@ -19,6 +20,7 @@ impl Scene {
     /// * reflection and transmission: the lobe is black, and a surface that has no other one is black altogether;
     /// * opacity masks: surfaces are whole; pass-through: they are black;
     /// * textures: their mean is everywhere;
+    /// * media are not there, take as much of every colour, scatter evenly;
     /// * instances are not there, everything is in focus, emitters are seen, normals need not agree.
     ///
     /// Lights are numbered anew.
@@ -33,6 +35,7 @@ impl Scene {
         self.textures.average(|texture| of_texture(texture).is_some_and(out));
         let black = self.textures.constant(Color::black());
         self.materials.change(|material, earlier| changed(material, earlier, &out, black));
+        self.leave_out_of_media(&out);
         if out(Effect::Instancing) && self.geometry.instance_count() > 0 {
             self.geometry = self.geometry.without_instances();
         }
@@ -40,6 +43,24 @@ impl Scene {
             self.camera = self.camera.without_lens();
         }
         self
+    }
+
+    fn leave_out_of_media(&mut self, out: &impl Fn(Effect) -> bool) {
+        let there =
+            |id: &MediumId| self.media.get(*id).is_some_and(|medium| !out(of_extinction(medium)));
+        for boundary in self.surfaces.iter_mut().filter_map(|surface| surface.boundary.as_mut()) {
+            boundary.interior = boundary.interior.filter(there);
+            boundary.exterior = boundary.exterior.filter(there);
+        }
+        self.media.around_camera = self.media.around_camera.filter(there);
+        for medium in &mut self.media.list {
+            if out(Effect::ColouredExtinction) {
+                medium.lose_colour();
+            }
+            if out(Effect::AnisotropicScattering) {
+                medium.phase = Phase::Isotropic;
+            }
+        }
     }
 }
 

@@ -1,4 +1,4 @@
-//! Loaders for the files a scene refers to: OBJ and MTL, PLY, Mitsuba's `serialized`, and images.
+//! Loaders for the files a scene refers to: OBJ and MTL, PLY, Mitsuba's `serialized`, volumes and images.
 //!
 //! | files | from a path | from bytes | result |
 //! | --- | --- | --- | --- |
@@ -7,6 +7,7 @@
 //! | MTL | [`load_mtl`] | [`parse_mtl`] | [`MtlMaterial`]s |
 //! | PLY | [`load_ply`] | [`parse_ply`] | [`MeshFile`] |
 //! | `serialized` | [`load_serialized`] | [`parse_serialized`] | [`MeshFile`] |
+//! | volumes | [`load_volume`] | [`parse_volume`] | [`VolumeFile`] |
 //! | PNG, JPEG, BMP, TGA, HDR, EXR, PFM | [`load_image`] | [`parse_image`] | [`Image`] |
 //!
 //! # What is promised for untrusted files
@@ -31,6 +32,7 @@ mod obj_parts;
 mod ply;
 mod serialized;
 pub mod srgb;
+mod volume;
 mod warnings;
 
 pub use file::read_asset;
@@ -41,3 +43,4 @@ pub use normals::smooth_normals;
 pub use obj::{ObjMesh, ObjScene, load_obj, load_obj_merged, parse_obj, parse_obj_merged};
 pub use ply::{load_ply, parse_ply};
 pub use serialized::{load_serialized, parse_serialized};
+pub use volume::{VolumeFile, load_volume, parse_volume};

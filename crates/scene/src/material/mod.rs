@@ -226,6 +226,20 @@ impl Materials {
         }
     }
 
+    /// Whether light may pass a surface of this material straight on, as if it were not there; true for
+    /// an unknown one, which is [`Material::Null`].
+    pub fn may_pass(&self, id: MaterialId) -> bool {
+        match self.get(id) {
+            None
+            | Some(Material::Null | Material::Mask { .. } | Material::ThinDielectric { .. }) => {
+                true
+            }
+            Some(Material::Dielectric { eta, .. }) => eta.is_matched(),
+            // A material refers to earlier ones only: this ends.
+            Some(material) => material.nested().any(|part| self.may_pass(part)),
+        }
+    }
+
     /// A material, or `None` for an unknown `id`.
     #[inline]
     pub fn get(&self, id: MaterialId) -> Option<&Material> {

@@ -101,6 +101,14 @@ macro_rules! forward_bsdf {
                     $(Self::$variant(model) => model.albedo(wo)),+
                 }
             }
+
+            #[inline]
+            fn pass_through(&self, wo: Vec3) -> Color {
+                match self {
+                    Self::$first(model) => model.pass_through(wo),
+                    $(Self::$variant(model) => model.pass_through(wo)),+
+                }
+            }
         }
 
         impl $enum<'_> {

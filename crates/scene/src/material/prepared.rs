@@ -91,6 +91,11 @@ impl Bsdf for Placed<'_> {
     fn albedo(&self, wo: Vec3) -> Option<Color> {
         self.model.albedo(self.place(wo))
     }
+
+    #[inline]
+    fn pass_through(&self, wo: Vec3) -> Color {
+        self.model.pass_through(self.place(wo))
+    }
 }
 
 impl<'a> PreparedBsdf<'a> {
@@ -145,6 +150,14 @@ impl Bsdf for PreparedBsdf<'_> {
         match &self.cover {
             Cover::Whole(placed) => placed.albedo(wo),
             Cover::Partial(masked) => masked.albedo(wo),
+        }
+    }
+
+    #[inline]
+    fn pass_through(&self, wo: Vec3) -> Color {
+        match &self.cover {
+            Cover::Whole(placed) => placed.pass_through(wo),
+            Cover::Partial(masked) => masked.pass_through(wo),
         }
     }
 }

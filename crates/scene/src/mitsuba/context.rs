@@ -11,6 +11,7 @@ use super::reader::PluginReader;
 use crate::geometry::{GeometryBuilder, GroupId};
 use crate::light::Light;
 use crate::material::{Material, MaterialId, Materials};
+use crate::medium::{Media, MediumId};
 use crate::scene::SurfaceInfo;
 use crate::texture::{TextureId, Textures};
 use crate::xml::{Description, Node, NodeId, nearest};
@@ -36,11 +37,13 @@ pub(super) struct Context<'a> {
     /// By shape.
     pub(super) surfaces: Vec<SurfaceInfo>,
     pub(super) lights: Vec<Light>,
+    pub(super) media: Media,
     /// Where what stands above is described.
     pub(super) origins: Origins,
     /// What was translated already, since many may refer to it.
     pub(super) texture_ids: BTreeMap<NodeId, TextureId>,
     pub(super) material_ids: BTreeMap<NodeId, MaterialId>,
+    pub(super) medium_ids: BTreeMap<NodeId, MediumId>,
     pub(super) groups: BTreeMap<NodeId, GroupId>,
 }
 
@@ -56,9 +59,11 @@ impl<'a> Context<'a> {
             geometry: GeometryBuilder::new(),
             surfaces: Vec::new(),
             lights: Vec::new(),
+            media: Media::default(),
             origins: Origins::default(),
             texture_ids: BTreeMap::new(),
             material_ids: BTreeMap::new(),
+            medium_ids: BTreeMap::new(),
             groups: BTreeMap::new(),
         }
     }

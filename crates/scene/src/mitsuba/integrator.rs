@@ -14,8 +14,8 @@ const INTEGRATORS: &Family<PathSettings> = &[
     ("direct", direct),
     ("moment", moment),
     ("path", path),
-    ("volpath", path),
-    ("volpathmis", path),
+    ("volpath", volumetric_path),
+    ("volpathmis", volumetric_path),
 ];
 
 /// The paths the integrator of a scene asks for.
@@ -42,7 +42,16 @@ fn path<'a>(
         roulette_depth,
         hide_emitters: reader.boolean("hide_emitters", false)?,
         strict_normals: reader.boolean("strict_normals", false)?,
+        volumes: false,
     })
+}
+
+/// The parameters of `path`; knows media.
+fn volumetric_path<'a>(
+    reader: &mut PluginReader<'a>,
+    context: &mut Context<'a>,
+) -> Result<PathSettings, SceneError> {
+    Ok(PathSettings { volumes: true, ..path(reader, context)? })
 }
 
 /// Direct light: paths of two edges. `hide_emitters` (false), `strict_normals` (false).

@@ -21,6 +21,7 @@ mod image;
 mod integrator;
 mod ior;
 mod load;
+mod medium;
 mod origins;
 mod reader;
 mod sampler;

@@ -75,7 +75,13 @@ pub(super) fn assemble(
             SceneError::scene(file.clone(), format!("a path cannot have {depth} edges"))
         })?;
     }
-    let Context { description, surfaces, materials, textures, lights, origins, .. } = context;
+    let is_bounded = context.surfaces.iter().any(|surface| surface.boundary.is_some());
+    if !path.volumes && (is_bounded || context.media.around_camera.is_some()) {
+        let message = "the integrator sees no media; “volpath” does";
+        context.warn(file.clone(), message);
+    }
+    let Context { description, surfaces, materials, textures, lights, media, origins, .. } =
+        context;
     let mut files = description.files.clone();
     files.extend(context.files);
     let mut warnings = description.warnings.clone();
@@ -86,6 +92,7 @@ pub(super) fn assemble(
         materials,
         textures,
         lights,
+        media,
         camera,
         film,
         sampling,

@@ -3,7 +3,7 @@
 use alloc::format;
 
 use super::reader::PluginReader;
-use super::{Context, Family, film, sampler};
+use super::{Context, Family, film, medium, sampler};
 use crate::SceneError;
 use crate::camera::{Camera, FieldOfView, FovAxis, Projection};
 use crate::effect::Element;
@@ -72,12 +72,14 @@ fn orthographic<'a>(
     sensor(reader, context, Projection::Orthographic)
 }
 
-/// What all sensors have: `to_world`, `near_clip` (0.01), `far_clip` (10 000), film and sampler.
+/// What all sensors have: `to_world`, `near_clip` (0.01), `far_clip` (10 000), film, sampler and at most
+/// one medium, in which the camera stands.
 fn sensor<'a>(
     reader: &mut PluginReader<'a>,
     context: &mut Context<'a>,
     projection: Projection,
 ) -> Result<Sensor, SceneError> {
+    context.media.around_camera = medium::around(reader, context)?;
     let film = film::of(reader, context)?;
     let sampling = sampler::of(reader, context)?;
     let to_world = reader.transform("to_world")?;

@@ -22,6 +22,12 @@ pub enum InvalidScene {
     /// A shape and a light do not name each other.
     #[error("shape {0} and its area light do not refer to each other")]
     AreaLight(u32),
+    /// A surface lies between media of which one does not exist.
+    #[error("shape {0} bounds a medium that does not exist")]
+    Medium(u32),
+    /// The camera stands in a medium that does not exist.
+    #[error("the camera stands in a medium that does not exist")]
+    MediumAroundCamera,
     /// A light names a texture that does not exist.
     #[error("light {0} refers to a texture that does not exist")]
     Texture(u32),
@@ -41,7 +47,7 @@ pub enum InvalidScene {
 /// Checks every reference between the parts, and the lights; directional lights get a direction of
 /// unit length.
 pub(super) fn check(parts: &mut SceneParts) -> Result<(), InvalidScene> {
-    let SceneParts { geometry, surfaces, materials, textures, lights, film, .. } = parts;
+    let SceneParts { geometry, surfaces, materials, textures, lights, media, film, .. } = parts;
     let shapes = geometry.shapes().len();
     if surfaces.len() != shapes {
         return Err(InvalidScene::SurfaceCount { surfaces: surfaces.len(), shapes });
@@ -52,12 +58,20 @@ pub(super) fn check(parts: &mut SceneParts) -> Result<(), InvalidScene> {
     for (index, surface) in surfaces.iter().enumerate() {
         let shape = index as u32;
         materials.get(surface.material).ok_or(InvalidScene::Material(shape))?;
+        let boundary = surface.boundary.unwrap_or_default();
+        let mut sides = [boundary.interior, boundary.exterior].into_iter().flatten();
+        if sides.any(|id| media.get(id).is_none()) {
+            return Err(InvalidScene::Medium(shape));
+        }
         if let Some(light) = surface.light {
             match lights.get(light.0 as usize) {
                 Some(Light::Area(light)) if light.shape == ShapeId(shape) => {}
                 _ => return Err(InvalidScene::AreaLight(shape)),
             }
         }
+    }
+    if media.around_camera.is_some_and(|id| media.get(id).is_none()) {
+        return Err(InvalidScene::MediumAroundCamera);
     }
     for (index, light) in lights.iter_mut().enumerate() {
         check_light(LightId(index as u32), light, surfaces, textures)?;

@@ -17,7 +17,7 @@ impl Scene {
         &self.geometry.shapes()[light.shape.0 as usize]
     }
 
-    /// Light of one source arriving at a point, drawn with two uniforms in `[0, 1)`.
+    /// Light of one source arriving at the point `from`, drawn with two uniforms in `[0, 1)`.
     ///
     /// * `primitive`: which triangle of an area light's mesh; 0 for everything else.
     ///
@@ -28,16 +28,16 @@ impl Scene {
         &self,
         light: LightId,
         primitive: u32,
-        reference: &SurfacePoint,
+        from: Vec3,
         u: [f32; 2],
     ) -> Option<LightSample> {
         // `?` takes apart what the longer way returns, so that the result need not be in memory.
         Some(match self.lights.get(light.0 as usize)? {
             Light::Area(area) => {
                 let shape = self.shape_of(*area);
-                area.sample(shape, &self.textures, primitive, reference.position, u)?
+                area.sample(shape, &self.textures, primitive, from, u)?
             }
-            light => self.sample_without_surface(light, reference.position, u)?,
+            light => self.sample_without_surface(light, from, u)?,
         })
     }
 

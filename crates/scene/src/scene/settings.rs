@@ -39,11 +39,20 @@ pub struct PathSettings {
     /// Whether a direction must lie on the same side of the geometric normal as of the shading
     /// normal.
     pub strict_normals: bool,
+    /// Whether paths know media, and shadow rays and counts of edges do not notice where light passes
+    /// a surface straight on: Mitsuba's `volpath` instead of its `path`.
+    pub volumes: bool,
 }
 
 impl Default for PathSettings {
     /// Mitsuba's defaults.
     fn default() -> Self {
-        Self { max_depth: None, roulette_depth: 5, hide_emitters: false, strict_normals: false }
+        Self {
+            max_depth: None,
+            roulette_depth: 5,
+            hide_emitters: false,
+            strict_normals: false,
+            volumes: false,
+        }
     }
 }

@@ -30,6 +30,7 @@ fn parts() -> SceneParts {
         materials: Materials::default(),
         textures: Textures::default(),
         lights: vec![],
+        media: Media::default(),
         camera: camera(),
         film: Film::new([4, 3]),
         sampling: SamplingSettings::default(),
@@ -48,7 +49,12 @@ fn lit_by(shape: Shape, radiance: impl FnOnce(&mut Textures) -> TextureId) -> Sc
     builder.add_shape(Shape::Rectangle(Rectangle::new(&wide).expect("a floor")));
     let emitter = builder.add_shape(shape);
     parts.geometry = builder.build();
-    let surface = |light, name: &str| SurfaceInfo { material: grey, light, name: name.into() };
+    let surface = |light, name: &str| SurfaceInfo {
+        material: grey,
+        light,
+        boundary: None,
+        name: name.into(),
+    };
     parts.surfaces = vec![surface(None, "floor"), surface(Some(LightId(0)), "emitter")];
     parts.lights = vec![Light::Area(AreaLight { shape: emitter, radiance })];
     Scene::new(parts).expect("a scene")
@@ -100,7 +106,8 @@ fn ceiling_solid_angle() -> f64 {
 fn sampled_solid_angle(scene: &Scene, primitives: u32) -> f64 {
     let point = floor(scene);
     let n = 64;
-    let inverse = |primitive, u| match scene.sample_light(LightId(0), primitive, &point, u) {
+    let inverse = |primitive, u| match scene.sample_light(LightId(0), primitive, point.position, u)
+    {
         Some(LightSample { density: Density::Continuous(pdf), .. }) => 1.0 / f64::from(pdf),
         _ => 0.0,
     };
@@ -137,7 +144,8 @@ fn a_sampled_point_is_seen_and_has_the_radiance_and_density_of_the_hit() {
         let scene = lit_by(shape, textured);
         let point = floor(&scene);
         for (primitive, u) in (0..primitives).flat_map(|i| uniforms(20).map(move |u| (i, u))) {
-            let sample = scene.sample_light(LightId(0), primitive, &point, u).expect("it is lit");
+            let sample =
+                scene.sample_light(LightId(0), primitive, point.position, u).expect("it is lit");
             let target = sample.target.expect("an area light has a place");
             assert!(!scene.geometry.occluded(&point.spawn_to(target)), "{u:?}");
             let ray = point.spawn(sample.direction);
@@ -158,7 +166,7 @@ fn a_sampled_point_is_seen_and_has_the_radiance_and_density_of_the_hit() {
 #[test]
 fn area_lights_emit_on_their_front_only() {
     let scene = lit_by(Shape::Rectangle(ceiling().flipped()), white);
-    assert_eq!(scene.sample_light(LightId(0), 0, &floor(&scene), [0.5; 2]), None);
+    assert_eq!(scene.sample_light(LightId(0), 0, floor(&scene).position, [0.5; 2]), None);
     let ray = floor(&scene).spawn(Vec3::Z);
     let hit = scene.geometry.intersect(&ray).expect("the light is above");
     let back = scene.geometry.surface_point(&ray, &hit);
@@ -205,7 +213,7 @@ fn lights_without_surface_have_the_textbook_irradiance() {
     let scene = Scene::new(parts).expect("a scene without shapes");
     let lit = lit_by(Shape::Rectangle(ceiling()), white);
     let origin = SurfacePoint { position: Vec3::ZERO, ..floor(&lit) };
-    let sample = |light| scene.sample_light(LightId(light), 0, &origin, [0.3, 0.4]);
+    let sample = |light| scene.sample_light(LightId(light), 0, origin.position, [0.3, 0.4]);
     for light in [0, 1] {
         let sample = sample(light).expect("it is lit");
         assert_eq!((sample.direction, sample.target), (Vec3::Z, Some(Vec3::Z * 2.0)));
@@ -237,7 +245,8 @@ fn parts_that_do_not_fit_are_refused() {
         change(&mut parts);
         Scene::new(parts).err()
     };
-    let info = SurfaceInfo { material: MaterialId(0), light: None, name: "lonely".into() };
+    let info =
+        SurfaceInfo { material: MaterialId(0), light: None, boundary: None, name: "lonely".into() };
     assert_eq!(
         refused(&|p| p.surfaces.push(info.clone())),
         Some(InvalidScene::SurfaceCount { surfaces: 1, shapes: 0 })

@@ -30,7 +30,7 @@ pub enum Wrap {
 impl Wrap {
     /// The texel, of `size` in a row, that stands for the `index`-th.
     #[inline]
-    pub(super) fn apply(self, index: i32, size: u32) -> u32 {
+    pub(crate) fn apply(self, index: i32, size: u32) -> u32 {
         let size = size as i32;
         let wrapped = match self {
             Self::Repeat => index.rem_euclid(size),

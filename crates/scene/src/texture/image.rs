@@ -206,7 +206,7 @@ impl BitmapImage {
 
 /// The integer below and the fraction above it, which is 0 for what is not finite.
 #[inline]
-fn split(x: f32) -> (i32, f32) {
+pub(crate) fn split(x: f32) -> (i32, f32) {
     let below = Real::floor(x);
     (below as i32, Real::clamp_to(x - below, 0.0, 1.0))
 }

@@ -15,6 +15,7 @@ use etendue_math::Spectrum;
 
 pub use bitmap::{Bitmap, Filter, Wrap};
 pub use checkerboard::Checkerboard;
+pub(crate) use image::split;
 pub use image::{BitmapError, BitmapImage};
 pub use uv_transform::UvTransform;
 

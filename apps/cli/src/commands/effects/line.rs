@@ -44,6 +44,7 @@ pub(super) fn reason(presence: &Presence, loaded: &LoadedScene) -> String {
         (None, Element::Material(_)) => "a material that the file does not describe".to_owned(),
         (None, Element::Texture(_)) => "an image that a mesh file names".to_owned(),
         (None, Element::Light(_)) => "the light around a bare mesh".to_owned(),
+        (None, Element::Medium(_)) => "a medium that the file does not describe".to_owned(),
         (None, Element::Instances) => "instances".to_owned(),
         (None, Element::Camera) => "the camera".to_owned(),
         (None, Element::Paths) => "paths as they are without an integrator".to_owned(),

@@ -17,6 +17,7 @@ use crate::effect::Element;
 use crate::geometry::{GroupId, Shape, Transform};
 use crate::light::{AreaLight, Light, LightId};
 use crate::material::MaterialId;
+use crate::medium::Boundary;
 use crate::scene::SurfaceInfo;
 use crate::texture::TextureId;
 use crate::xml::NodeId;
@@ -51,6 +52,7 @@ pub(super) struct Surface {
     pub(super) material: MaterialId,
     /// Of an area light.
     pub(super) radiance: Option<TextureId>,
+    pub(super) boundary: Option<Boundary>,
     pub(super) name: String,
 }
 
@@ -80,21 +82,21 @@ pub(super) fn add(context: &mut Context<'_>, id: NodeId) -> Result<(), SceneErro
 
 /// Adds a shape that is seen where it stands, and the light that it is.
 pub(super) fn add_surface(context: &mut Context<'_>, surface: Surface) -> Option<LightId> {
-    let Surface { shape, material, radiance, name } = surface;
+    let Surface { shape, material, radiance, boundary, name } = surface;
     let shape = context.geometry.add_shape(shape);
     let light = radiance.map(|radiance| {
         context.lights.push(Light::Area(AreaLight { shape, radiance }));
         LightId(context.lights.len() as u32 - 1)
     });
-    context.surfaces.push(SurfaceInfo { material, light, name });
+    context.surfaces.push(SurfaceInfo { material, light, boundary, name });
     light
 }
 
 fn add_group(context: &mut Context<'_>, surfaces: Vec<Surface>) -> GroupId {
     let mut shapes = Vec::with_capacity(surfaces.len());
-    for Surface { shape, material, name, .. } in surfaces {
+    for Surface { shape, material, boundary, name, .. } in surfaces {
         shapes.push(shape);
-        context.surfaces.push(SurfaceInfo { material, light: None, name });
+        context.surfaces.push(SurfaceInfo { material, light: None, boundary, name });
     }
     context.geometry.add_group(shapes).0
 }

@@ -4,14 +4,14 @@ use alloc::format;
 use alloc::string::String;
 
 use super::super::reader::PluginReader;
-use super::super::{Context, bsdf, emitter};
+use super::super::{Context, bsdf, emitter, medium};
 use super::{Item, Surface};
 use crate::SceneError;
 use crate::geometry::{Shape, ShapeError};
 use crate::material::Material;
 use crate::xml::Kind;
 
-/// A shape with the bsdf and the emitter inside its plugin, turned inside out on request.
+/// A shape with the bsdf, the emitter and the media inside its plugin, turned inside out on request.
 ///
 /// Without a bsdf it is diffuse: a half reflected, or nothing where it emits, as in Mitsuba.
 pub(super) fn surface<'a>(
@@ -24,6 +24,7 @@ pub(super) fn surface<'a>(
     // Weights of gradient estimators.
     reader.ignore(&["silhouette_sampling_weight"]);
     let location = &reader.node().location;
+    let boundary = medium::boundary(reader, context)?;
     let bsdf = reader.child(Kind::Bsdf, context)?;
     let emission = reader.child(Kind::Emitter, context)?;
     let radiance = emission.map(|child| emitter::radiance(context, child.node)).transpose()?;
@@ -39,7 +40,7 @@ pub(super) fn surface<'a>(
         }
     };
     let name = reader.node().id.clone().unwrap_or(name);
-    Ok(Item::Surface(Surface { shape, material, radiance, name }))
+    Ok(Item::Surface(Surface { shape, material, radiance, boundary, name }))
 }
 
 /// An error about the form of a shape.

@@ -1,0 +1,48 @@
+//! Paths from surface to surface.
+
+use etendue_math::Spectrum;
+use etendue_sampling::Sampler;
+use etendue_scene::Color;
+use etendue_scene::geometry::{Ray, Rays};
+
+use super::transport::{Surfaces, Transport};
+use super::{Fate, PathTracer, Walk};
+use crate::statistics::RayCounts;
+
+impl Transport for Surfaces {
+    const VOLUMES: bool = false;
+
+    #[inline(always)]
+    fn radiance<S: Sampler, R: Rays>(
+        tracer: &PathTracer<'_, '_, R>,
+        camera_ray: Ray,
+        points: &S,
+        rays: &mut RayCounts,
+    ) -> Color {
+        let longest = tracer.longest();
+        let mut radiance = Color::black();
+        let mut walk = Walk::from_camera(camera_ray);
+        rays.camera += 1;
+        for depth in 1..=longest {
+            let Some(point) = tracer.next_surface(&mut walk, rays) else {
+                radiance += walk.throughput * tracer.escaped(&walk);
+                break;
+            };
+            radiance += walk.throughput * tracer.emitted(&walk, &point);
+            if depth == longest {
+                break;
+            }
+            let mut varying = None;
+            let vertex = tracer.vertex(depth, &point, walk.ray.direction, &mut varying);
+            if tracer.is_inconsistent(&vertex, -walk.ray.direction, vertex.wo) {
+                break;
+            }
+            radiance += walk.throughput * tracer.direct_light(&vertex, points, rays);
+            match tracer.scatter::<Self, S>(&vertex, &mut walk, points) {
+                Fate::Continues | Fate::Passes => rays.indirect += 1,
+                Fate::Ends => break,
+            }
+        }
+        radiance
+    }
+}
