@@ -9,6 +9,8 @@
 //! | conductor | [`conductor`], also by [`conductor_from_artistic`] | [`F82Tint`], [`schlick`] | [`conductor_average`]; fit [`conductor_average_fit`] |
 //! | Schlick | [`schlick`], [`schlick_transmittance`] | [`schlick_gaussian`] | [`schlick_average`] |
 //!
+//! Indices may depend on the wavelength: [`Dispersion`], with real media in [`GLASSES`].
+//!
 //! [`dielectric_textbook`], [`conductor_textbook`], [`schlick_powf`] and [`schlick_gaussian`] are what other
 //! programs use, here to be measured against: what they save and where they break.
 
@@ -16,6 +18,7 @@ mod artistic;
 mod average;
 mod conductor;
 mod dielectric;
+mod dispersion;
 mod f82;
 mod refraction;
 mod relative_index;
@@ -30,6 +33,7 @@ pub use average::{
 pub use conductor::conductor;
 pub(crate) use conductor::conductor_of_valid;
 pub use dielectric::{dielectric, dielectric_polarized, dielectric_transmittance};
+pub use dispersion::{Dispersion, GLASSES, Glass};
 pub use f82::F82Tint;
 pub(crate) use refraction::{Refraction, refract_at};
 pub use refraction::{refract, refract_about};

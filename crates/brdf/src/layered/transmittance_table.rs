@@ -150,7 +150,7 @@ mod tests {
         const EXACT: Distribution = Distribution::Beckmann { lambda: BeckmannLambda::Exact };
         let internal = InternalReflectance::Exact;
         for exponent in [0, 10, 30, 45, 52] {
-            let eta = Ior::new(1.0 + f64::powi(0.5, exponent)).unwrap();
+            let eta = Ior::new(1.0 + Real::powi(0.5_f64, exponent)).unwrap();
             for alpha in [1e-6, 0.01, 0.3, 1.0, 30.0] {
                 let (alpha, masking) = (Alpha::new(alpha).unwrap(), Masking::HeightCorrelated);
                 for distribution in [Distribution::Ggx, EXACT] {
