@@ -121,6 +121,35 @@ fn every_effect_names_the_element_that_calls_for_it() {
 }
 
 #[test]
+fn media_are_present_where_the_integrator_sees_them_and_a_shape_bounds_them() {
+    let scene = |integrator: &str| {
+        format!(
+            r#"<scene version="3.0.0">
+    <integrator type="{integrator}"/>
+    <medium type="homogeneous" id="unused"/>
+    <medium type="homogeneous" id="fog"><rgb name="sigma_t" value="1 2 3"/></medium>
+    <sensor type="perspective"><ref id="fog"/></sensor>
+    <shape type="sphere"><bsdf type="diffuse"/>
+        <ref name="exterior" id="fog"/>
+        <medium type="heterogeneous" name="interior"><phase type="hg"/></medium>
+    </shape>
+</scene>"#
+        )
+    };
+    let seen = effects(&scene("volpath"));
+    let expected = [
+        ("indirect-light", "integrator “volpath” at scene.xml:2:5"),
+        ("homogeneous-medium", "medium “homogeneous” at scene.xml:4:5"),
+        ("heterogeneous-medium", "medium “heterogeneous” at scene.xml:8:9"),
+        ("coloured-extinction", "medium “homogeneous” at scene.xml:4:5"),
+        ("anisotropic-scattering", "medium “heterogeneous” at scene.xml:8:9"),
+    ];
+    assert_eq!(present(&seen), expected);
+    let expected = [("indirect-light", "integrator “path” at scene.xml:2:5")];
+    assert_eq!(present(&effects(&scene("path"))), expected);
+}
+
+#[test]
 fn the_text_says_what_is_present_and_what_it_costs() {
     let folder = Folder::new();
     folder.write("scene.xml", NOTHING);

@@ -129,6 +129,20 @@ def ply(path, is_binary):
             file.write(struct.pack("<Biii", 3, *triangle) if is_binary else text.encode())
 
 
+def vol(path, size, channels, value):
+    """Mitsuba's volume format; `value(x, y, z)` gives one float per channel, for cells in a box of 2 × 1 × 1."""
+    nx, ny, nz = size
+    cells = [value(x, y, z) for z in range(nz) for y in range(ny) for x in range(nx)]
+    numbers = [number for cell in cells for number in cell]
+    with open(path, "wb") as file:
+        file.write(b"VOL\x03" + struct.pack("<5i6f", 1, nx, ny, nz, channels, -0.5, 0, 0, 1.5, 1, 1))
+        file.write(struct.pack(f"<{len(numbers)}f", *numbers))
+
+
+def smoke(x, y, z):
+    return 0.1 + ((3 * x + 5 * y + 7 * z) % 11) / 11
+
+
 def main():
     here = os.path.dirname(os.path.abspath(__file__))
     folder = sys.argv[1] if len(sys.argv) > 1 else os.path.join(here, "assets")
@@ -146,6 +160,8 @@ def main():
     obj(path("torus-without-normals.obj"), has_normals=False)
     ply(path("torus.ply"), is_binary=True)
     ply(path("torus-ascii.ply"), is_binary=False)
+    vol(path("grey.vol"), (6, 4, 5), 1, lambda x, y, z: (smoke(x, y, z) * (x + y > 2),))
+    vol(path("rgb.vol"), (4, 3, 5), 3, lambda x, y, z: [0.9 * smoke(*p) for p in ((x, y, z), (y, z, x), (z, x, y))])
     with open(path("leaf.spd"), "w") as file:
         file.write("# wavelength in nm, reflectance\n400 0.05\n500 0.1\n550 0.35\n600 0.15\n680 0.05\n720 0.5\n")
 

@@ -8,5 +8,7 @@ mod direct_light;
 mod features;
 mod furnace;
 mod health;
+mod media;
 mod scenes;
 mod strategies;
+mod transport;

@@ -8,7 +8,7 @@ use etendue_scene::film::{Film, ReconstructionFilter};
 use etendue_scene::geometry::{GeometryBuilder, Rectangle, Shape, Sphere, Transform};
 use etendue_scene::light::{AreaLight, ConstantLight, Light, LightId};
 use etendue_scene::material::{ConductorIndex, Material, MaterialId, Materials, Roughness};
-use etendue_scene::medium::Media;
+use etendue_scene::medium::{Boundary, Media, Medium, MediumId};
 use etendue_scene::scene::{PathSettings, SamplerKind, SamplingSettings, SceneParts, SurfaceInfo};
 use etendue_scene::texture::Textures;
 use etendue_scene::{Color, Scene};
@@ -61,6 +61,18 @@ impl Sketch {
             boundary: None,
             name: String::new(),
         });
+    }
+
+    pub(super) fn medium(&mut self, medium: Medium) -> MediumId {
+        self.media.list.push(medium);
+        MediumId(self.media.list.len() as u32 - 1)
+    }
+
+    /// A shape with a medium inside, and empty space outside.
+    pub(super) fn filled(&mut self, shape: Shape, material: MaterialId, interior: MediumId) {
+        self.shape(shape, material);
+        let boundary = Boundary { interior: Some(interior), exterior: None };
+        self.surfaces.last_mut().expect("the shape").boundary = Some(boundary);
     }
 
     pub(super) fn emitter(&mut self, shape: Shape, material: MaterialId, radiance: f32) {

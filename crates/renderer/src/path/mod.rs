@@ -86,7 +86,7 @@ enum View {
 
 /// A surface that a path has met.
 struct Vertex<'a, 's> {
-    /// Number of edges from the camera to here.
+    /// Its address: the number of edges from the camera to here, those that only pass included.
     depth: u16,
     point: &'a SurfacePoint,
     bsdf: &'a PreparedBsdf<'s>,

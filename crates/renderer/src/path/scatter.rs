@@ -9,11 +9,12 @@ use etendue_scene::geometry::Rays;
 use super::{Arrival, Fate, PathTracer, Transport, Vertex, View, Walk};
 
 impl<R: Rays> PathTracer<'_, '_, R> {
-    /// Chooses where the path goes on, and whether it does.
+    /// Chooses where the path goes on, and whether it does; `edges` lead from the camera to here.
     #[inline(always)]
     pub(super) fn scatter<T: Transport, S: Sampler>(
         &self,
         vertex: &Vertex<'_, '_>,
+        edges: u16,
         walk: &mut Walk,
         points: &S,
     ) -> Fate {
@@ -45,7 +46,7 @@ impl<R: Rays> PathTracer<'_, '_, R> {
             return Fate::Ends;
         }
         walk.ray = vertex.point.spawn(direction);
-        match self.roulette(vertex.depth, walk, points) {
+        match self.roulette(vertex.dimension(Decision::Roulette), edges, walk, points) {
             Fate::Continues if passes => Fate::Passes,
             fate => fate,
         }
@@ -71,17 +72,23 @@ impl<R: Rays> PathTracer<'_, '_, R> {
     ///
     /// η² undoes the compression of radiance inside a medium, which the way out reverses.
     #[inline(always)]
-    pub(super) fn roulette<S: Sampler>(&self, depth: u16, walk: &mut Walk, points: &S) -> Fate {
+    pub(super) fn roulette<S: Sampler>(
+        &self,
+        dimension: Dimension,
+        edges: u16,
+        walk: &mut Walk,
+        points: &S,
+    ) -> Fate {
         let largest = walk.throughput.max_channel();
         // False for NaN, which goes on to be counted where it reaches the film.
         if largest <= 0.0 {
             return Fate::Ends;
         }
-        if u32::from(depth) < self.settings.roulette_depth {
+        if u32::from(edges) < self.settings.roulette_depth {
             return Fate::Continues;
         }
         let survival = (largest * walk.eta * walk.eta).min(0.95);
-        if points.sample_1d::<f32>(Dimension::vertex(depth, Decision::Roulette)) >= survival {
+        if points.sample_1d::<f32>(dimension) >= survival {
             return Fate::Ends;
         }
         walk.throughput = walk.throughput.scale(1.0 / survival);

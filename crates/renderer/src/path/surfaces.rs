@@ -38,7 +38,7 @@ impl Transport for Surfaces {
                 break;
             }
             radiance += walk.throughput * tracer.direct_light(&vertex, points, rays);
-            match tracer.scatter::<Self, S>(&vertex, &mut walk, points) {
+            match tracer.scatter::<Self, S>(&vertex, depth, &mut walk, points) {
                 Fate::Continues | Fate::Passes => rays.indirect += 1,
                 Fate::Ends => break,
             }

@@ -5,6 +5,7 @@ use alloc::vec::Vec;
 use etendue_math::Spectrum;
 
 use crate::Color;
+use etendue_math::Spectrum;
 
 /// Why values do not make a grid.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -110,11 +111,41 @@ impl VolumeGrid {
     #[inline]
     pub fn cell(&self, cell: [u32; 3]) -> Color {
         let [x, y, z] = [0, 1, 2].map(|axis| cell[axis].min(self.size[axis] - 1) as usize);
-        let index = (z * self.size[1] as usize + y) * self.size[0] as usize + x;
         match &self.values {
-            Values::Grey(values) => Color::new(values[index], values[index], values[index]),
-            Values::Rgb(values) => Color::from(values[index]),
+            Values::Grey(values) => Color::splat(values[self.index(x, y, z)]),
+            Values::Rgb(values) => Color::from(values[self.index(x, y, z)]),
         }
+    }
+
+    /// The value between two cells along each axis, which exist, at fractions of the way.
+    #[inline]
+    pub(super) fn between(&self, cells: [[u32; 2]; 3], fractions: [f32; 3]) -> Color {
+        match &self.values {
+            Values::Grey(values) => {
+                Color::splat(self.blend(cells, fractions, |index| values[index]))
+            }
+            Values::Rgb(values) => self.blend(cells, fractions, |index| Color::from(values[index])),
+        }
+    }
+
+    #[inline(always)]
+    fn blend<C: Spectrum<Real = f32>>(
+        &self,
+        cells: [[u32; 2]; 3],
+        [fx, fy, fz]: [f32; 3],
+        value: impl Fn(usize) -> C,
+    ) -> C {
+        let [xs, ys, zs] = cells.map(|pair| pair.map(|cell| cell as usize));
+        let mix = |a: C, b: C, fraction: f32| a.scale(1.0 - fraction) + b.scale(fraction);
+        let along_x =
+            |y, z| mix(value(self.index(xs[0], y, z)), value(self.index(xs[1], y, z)), fx);
+        let along_y = |z| mix(along_x(ys[0], z), along_x(ys[1], z), fy);
+        mix(along_y(zs[0]), along_y(zs[1]), fz)
+    }
+
+    #[inline(always)]
+    fn index(&self, x: usize, y: usize, z: usize) -> usize {
+        (z * self.size[1] as usize + y) * self.size[0] as usize + x
     }
 }
 

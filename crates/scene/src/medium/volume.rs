@@ -141,19 +141,13 @@ fn largest_cell(grid: &VolumeGrid, [xs, ys, zs]: [[u32; 2]; 3]) -> f32 {
 
 #[inline]
 fn trilinear(grid: &VolumeGrid, place: Vec3, wrap: Wrap) -> Color {
-    let [(x, fx), (y, fy), (z, fz)] =
-        [0, 1, 2].map(|axis| split(place[axis] * grid.size()[axis] as f32 - 0.5));
-    let at = |dx, dy, dz| {
-        let [nx, ny, nz] = grid.size();
-        grid.cell([
-            wrap.apply(x.saturating_add(dx), nx),
-            wrap.apply(y.saturating_add(dy), ny),
-            wrap.apply(z.saturating_add(dz), nz),
-        ])
-    };
-    let along_x = |dy, dz| at(0, dy, dz) * (1.0 - fx) + at(1, dy, dz) * fx;
-    let along_y = |dz| along_x(0, dz) * (1.0 - fy) + along_x(1, dz) * fy;
-    along_y(0) * (1.0 - fz) + along_y(1) * fz
+    let axes = [0, 1, 2].map(|axis| {
+        let cells = grid.size()[axis];
+        let (below, fraction) = split(place[axis] * cells as f32 - 0.5);
+        let pair = [below, below.saturating_add(1)];
+        (pair.map(|cell| wrap.apply(cell, cells)), fraction)
+    });
+    grid.between(axes.map(|axis| axis.0), axes.map(|axis| axis.1))
 }
 
 #[cfg(test)]

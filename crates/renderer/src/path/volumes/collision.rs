@@ -4,14 +4,12 @@ use etendue_brdf::Density;
 use etendue_math::Spectrum;
 use etendue_math::glam::Vec3;
 use etendue_sampling::{Decision, Dimension, Sampler};
-use etendue_scene::Color;
 use etendue_scene::geometry::{Ray, Rays};
 
-use super::course::Course;
+use super::shadow::Shadowed;
 use super::travel::Collision;
 use crate::light_sampler::{Receiver, Sides};
 use crate::path::{Arrival, Fate, LightSampling, PathTracer, View, Walk};
-use crate::statistics::RayCounts;
 
 impl Collision<'_> {
     fn receiver(&self) -> Receiver {
@@ -20,43 +18,38 @@ impl Collision<'_> {
 }
 
 impl<'s, R: Rays> PathTracer<'_, 's, R> {
-    /// An estimate, by one light sample, of the light scattered towards the camera.
+    /// By one light sample, the light scattered towards the camera if nothing is in its way.
     #[inline(always)]
     pub(super) fn light_in_medium<S: Sampler>(
         &self,
         collision: &Collision<'s>,
-        course: &Course<'s>,
         points: &S,
-        rays: &mut RayCounts,
-    ) -> Color {
+    ) -> Option<Shadowed<'s>> {
         let Collision { medium, position, along, depth } = *collision;
         if self.light_sampling == LightSampling::Useless || !medium.samples_lights {
-            return Color::black();
+            return None;
         }
-        let Some(sample) = self.sample_light(depth, &collision.receiver(), points) else {
-            return Color::black();
-        };
+        let sample = self.sample_light(depth, &collision.receiver(), points)?;
         let phase = medium.phase.eval(along, sample.direction);
         let scale = match sample.density {
             Density::Delta(p) => 1.0 / p,
             Density::Continuous(p) => self.light_weight(p, phase) / p,
         };
         let light = sample.radiance.scale(phase * scale);
-        if light.is_black() {
-            return light;
-        }
         let ray = match sample.target {
             Some(target) => Ray::between(position, target),
             None => Ray::new(position, sample.direction),
         };
-        light * self.transmittance(ray, &sample, course.medium, depth, points, rays)
+        let shadowed = Shadowed { light, ray, target: sample.target, medium: Some(medium) };
+        (!light.is_black()).then_some(shadowed)
     }
 
-    /// Chooses where the path goes on, and whether it does.
+    /// Chooses where the path goes on, and whether it does; `edges` lead from the camera to here.
     #[inline(always)]
     pub(super) fn scatter_in_medium<S: Sampler>(
         &self,
         collision: &Collision<'s>,
+        edges: u16,
         walk: &mut Walk,
         points: &S,
     ) -> Fate {
@@ -70,6 +63,6 @@ impl<'s, R: Rays> PathTracer<'_, 's, R> {
         };
         walk.view = View::Scattered;
         walk.ray = Ray::new(position, direction);
-        self.roulette(depth, walk, points)
+        self.roulette(Dimension::vertex(depth, Decision::Roulette), edges, walk, points)
     }
 }

@@ -52,7 +52,9 @@ impl Transport for Volumes {
             if edges > longest {
                 break;
             }
-            let fate = match tracer.travel(&mut walk, &mut course, depth, points, rays) {
+            let throughput;
+            let (shadowed, fate) = match tracer.travel(&mut walk, &mut course, depth, points, rays)
+            {
                 Event::Escape => {
                     radiance += walk.throughput * tracer.escaped(&walk);
                     break;
@@ -61,9 +63,9 @@ impl Transport for Volumes {
                     if edges == longest {
                         break;
                     }
-                    let light = tracer.light_in_medium(&collision, &course, points, rays);
-                    radiance += walk.throughput * light;
-                    tracer.scatter_in_medium(&collision, &mut walk, points)
+                    throughput = walk.throughput;
+                    let shadowed = tracer.light_in_medium(&collision, points);
+                    (shadowed, tracer.scatter_in_medium(&collision, edges, &mut walk, points))
                 }
                 Event::Surface(point) => {
                     radiance += walk.throughput * tracer.emitted(&walk, &point);
@@ -76,15 +78,22 @@ impl Transport for Volumes {
                     {
                         break;
                     }
-                    if !is_last {
-                        let light = tracer.light_through_media(&vertex, &course, points, rays);
-                        radiance += walk.throughput * light;
-                    }
-                    let fate = tracer.scatter::<Self, S>(&vertex, &mut walk, points);
+                    throughput = walk.throughput;
+                    let shadowed = if is_last {
+                        None
+                    } else {
+                        tracer.light_at_surface(&vertex, &course, points)
+                    };
+                    let fate = tracer.scatter::<Self, S>(&vertex, edges, &mut walk, points);
                     course.cross(tracer.scene, &point, walk.ray.direction);
-                    fate
+                    (shadowed, fate)
                 }
             };
+            // In one place for all vertices, so that what traces rays is compiled once.
+            if let Some(shadowed) = shadowed {
+                let share = tracer.transmittance(&shadowed, depth, points, rays);
+                radiance += throughput * (shadowed.light * share);
+            }
             match fate {
                 Fate::Continues => edges += 1,
                 Fate::Passes => {}

@@ -6,7 +6,6 @@ use etendue_math::{Real, Spectrum};
 use etendue_sampling::{Decision, Dimension, Pcg32, Sampler};
 use etendue_scene::Color;
 use etendue_scene::geometry::{Ray, Rays};
-use etendue_scene::light::LightSample;
 use etendue_scene::material::Side;
 use etendue_scene::medium::{Density, Extinction, Medium};
 
@@ -15,41 +14,49 @@ use super::tentative::tentative;
 use crate::path::{PathTracer, Vertex};
 use crate::statistics::RayCounts;
 
+/// Light that a vertex would scatter towards the camera if it arrived.
+pub(super) struct Shadowed<'s> {
+    pub(super) light: Color,
+    /// From the vertex to the light.
+    pub(super) ray: Ray,
+    /// Where it ends, of a light that is somewhere.
+    pub(super) target: Option<Vec3>,
+    /// Where it begins.
+    pub(super) medium: Option<&'s Medium>,
+}
+
 impl<'s, R: Rays> PathTracer<'_, 's, R> {
-    /// An estimate, by one light sample, of the light that a surface scatters towards the camera.
+    /// By one light sample, the light that a surface scatters towards the camera if nothing is in its
+    /// way.
     #[inline(always)]
-    pub(super) fn light_through_media<S: Sampler>(
+    pub(super) fn light_at_surface<S: Sampler>(
         &self,
         vertex: &Vertex<'_, '_>,
         course: &Course<'s>,
         points: &S,
-        rays: &mut RayCounts,
-    ) -> Color {
-        let Some((light, sample)) = self.unoccluded_light(vertex, points) else {
-            return Color::black();
-        };
+    ) -> Option<Shadowed<'s>> {
+        let (light, sample) = self.unoccluded_light(vertex, points)?;
         let ray = match sample.target {
             Some(target) => vertex.point.spawn_to(target),
             None => vertex.point.spawn(sample.direction),
         };
         let medium = beyond(self.scene, vertex.point, sample.direction, course.medium);
-        light * self.transmittance(ray, &sample, medium, vertex.depth, points, rays)
+        Some(Shadowed { light, ray, target: sample.target, medium })
     }
 
-    /// The share of a light sample that arrives at the origin of a ray to it, in the mean.
+    /// The share of light that arrives at the vertex with address `depth`, in the mean.
     ///
     /// Light passes surfaces as [`Bsdf::pass_through`] says, which is what scattered rays that keep
-    /// their [arrival](crate::path::Arrival) find behind them.
-    #[inline]
+    /// their arrival find behind them.
+    #[inline(always)]
     pub(super) fn transmittance<S: Sampler>(
         &self,
-        mut ray: Ray,
-        sample: &LightSample,
-        mut medium: Option<&'s Medium>,
+        shadowed: &Shadowed<'s>,
         depth: u16,
         points: &S,
         rays: &mut RayCounts,
     ) -> Color {
+        let Shadowed { mut ray, target, mut medium, .. } = *shadowed;
         let mut share = Color::white();
         let mut numbers = None;
         while !share.is_black() {
@@ -85,7 +92,7 @@ impl<'s, R: Rays> PathTracer<'_, 's, R> {
             }
             let Some((point, _)) = surface else { break };
             medium = beyond(self.scene, &point, ray.direction, medium);
-            ray = match sample.target {
+            ray = match target {
                 Some(target) => point.spawn_to(target),
                 None => point.spawn(ray.direction),
             };

@@ -4,7 +4,7 @@ use etendue_math::glam::Vec3;
 use etendue_math::{Real, Spectrum};
 use etendue_sampling::{Decision, Dimension, Pcg32, Sampler};
 use etendue_scene::Color;
-use etendue_scene::geometry::{Hit, Ray, Rays, SurfacePoint};
+use etendue_scene::geometry::{Ray, Rays, SurfacePoint};
 use etendue_scene::medium::{Density, Extinction, Medium};
 
 use super::course::Course;
@@ -32,16 +32,11 @@ pub(super) struct Collision<'s> {
     pub(super) depth: u16,
 }
 
-/// How far a path gets in one medium.
-enum Reach {
-    /// To the surface, or to the end of the ray.
-    Through(Option<Hit>),
-    /// To a particle.
-    Collision(Vec3),
-}
-
 impl<'s, R: Rays> PathTracer<'_, 's, R> {
     /// Goes to the next vertex, whose address is `depth`, and weighs how it got there.
+    ///
+    /// Rays are traced in one place: this is compiled into the loop over vertices, unlike what is done
+    /// beside.
     #[inline(always)]
     pub(super) fn travel<S: Sampler>(
         &self,
@@ -55,33 +50,45 @@ impl<'s, R: Rays> PathTracer<'_, 's, R> {
         let mut thickness = None;
         let mut numbers = None;
         loop {
-            let reach = match course.medium {
-                None => Reach::Through(self.rays.intersect(&walk.ray)),
-                Some(medium) => match &medium.extinction {
-                    Extinction::Homogeneous(sigma) => {
-                        let thickness = thickness.get_or_insert_with(|| {
-                            let decision = Dimension::vertex(depth, Decision::Distance);
-                            optical_thickness(points.sample_1d(decision))
-                        });
-                        self.fly(walk, course, points, *sigma, thickness)
-                    }
-                    Extinction::Heterogeneous(density) => {
-                        let numbers = numbers.get_or_insert_with(|| {
-                            points.rng(Dimension::vertex(depth, Decision::Tracking))
-                        });
-                        self.track(walk, course, points, density, numbers)
-                    }
-                },
-            };
-            let hit = match (reach, course.medium) {
-                (Reach::Collision(position), Some(medium)) => {
-                    walk.throughput = walk.throughput * medium.albedo_at(position);
-                    let along = walk.ray.direction.normalize_or_zero();
-                    return Event::Collision(Collision { medium, position, along, depth });
+            let extinction = course.medium.map(|medium| &medium.extinction);
+            let flight = match extinction {
+                Some(&Extinction::Homogeneous(sigma)) => {
+                    let thickness = *thickness.get_or_insert_with(|| {
+                        let decision = Dimension::vertex(depth, Decision::Distance);
+                        optical_thickness(points.sample_1d(decision))
+                    });
+                    Some(Flight::new(sigma, thickness, &walk.ray, || course.channel(points)))
                 }
-                (Reach::Through(Some(hit)), _) => hit,
-                _ => return Event::Escape,
+                Some(Extinction::Heterogeneous(_)) | None => None,
             };
+            let t = flight.as_ref().map_or(f32::INFINITY, |flight| flight.t);
+            let hit = self.rays.intersect(&Ray { t_max: t.min(walk.ray.t_max), ..walk.ray });
+            let end = hit.map_or(walk.ray.t_max, |hit| hit.t);
+            let collision = match (flight, extinction) {
+                (Some(flight), _) => {
+                    let collides = hit.is_none() && t < walk.ray.t_max;
+                    let factor = flight.factor(collides, end, course);
+                    walk.throughput = walk.throughput * factor;
+                    thickness = Some(flight.left(end));
+                    collides.then(|| walk.ray.at(t))
+                }
+                (None, Some(Extinction::Heterogeneous(density))) => {
+                    let numbers = numbers.get_or_insert_with(|| {
+                        points.rng(Dimension::vertex(depth, Decision::Tracking))
+                    });
+                    let part = Ray { t_max: end, ..walk.ray };
+                    let (position, factor) = track(density, &part, numbers, course, points);
+                    walk.throughput = walk.throughput * factor;
+                    position
+                }
+                (None, _) => None,
+            };
+            if let (Some(position), Some(medium)) = (collision, course.medium) {
+                walk.throughput = walk.throughput * medium.albedo_at(position);
+                let along = walk.ray.direction.normalize_or_zero();
+                return Event::Collision(Collision { medium, position, along, depth });
+            }
+            let Some(hit) = hit else { return Event::Escape };
             let point = self.scene.geometry.surface_point(&walk.ray, &hit);
             if !(self.hides_emitters(walk) && self.is_emitter(&point)) {
                 return Event::Surface(point);
@@ -90,84 +97,94 @@ impl<'s, R: Rays> PathTracer<'_, 's, R> {
             course.cross(self.scene, &point, walk.ray.direction);
         }
     }
+}
 
-    /// Through a homogeneous medium until its optical thickness, by the channel of the path, is used
-    /// up.
+/// A way through a homogeneous medium, until its optical thickness by one channel is used up.
+///
+/// ```text
+/// s = −ln(1 − u) / σ of that channel
+/// density of a collision σ exp(−σ s), of passing exp(−σ d)
+/// ```
+struct Flight {
+    sigma: Color,
+    /// That of the channel.
+    own: f32,
+    thickness: f32,
+    /// Length of the ray's direction.
+    speed: f32,
+    /// Where the collision is, as a parameter of the ray.
+    t: f32,
+}
+
+impl Flight {
+    #[inline(always)]
+    fn new(sigma: Color, thickness: f32, ray: &Ray, channel: impl FnOnce() -> usize) -> Self {
+        let own = if is_grey(sigma) { sigma.r } else { sigma.channel(channel()) };
+        let speed = ray.direction.length();
+        // Infinite in a channel without extinction, also for a thickness of 0.
+        let t = if own > 0.0 { thickness / (own * speed) } else { f32::INFINITY };
+        Self { sigma, own, thickness, speed, t }
+    }
+
+    /// The factor of the throughput for a collision, or for passing as far as `end`.
     ///
-    /// ```text
-    /// s = −ln(1 − u) / σ of that channel
-    /// density of a collision σ exp(−σ s), of passing exp(−σ d)
-    /// ```
-    ///
-    /// The extinction of that channel is taken off all exponents, so that none overflows and not all
+    /// The extinction of the channel is taken off all exponents, so that none overflows and not all
     /// vanish.
     #[inline]
-    fn fly<S: Sampler>(
-        &self,
-        walk: &mut Walk,
-        course: &mut Course<'s>,
-        points: &S,
-        sigma: Color,
-        thickness: &mut f32,
-    ) -> Reach {
-        let is_grey = is_grey(sigma);
-        let own = if is_grey { sigma.r } else { sigma.channel(course.channel(points)) };
-        let speed = walk.ray.direction.length();
-        // Infinite in a channel without extinction, also for a thickness of 0.
-        let t = if own > 0.0 { *thickness / (own * speed) } else { f32::INFINITY };
-        let hit = self.rays.intersect(&Ray { t_max: t.min(walk.ray.t_max), ..walk.ray });
-        let relative = |distance: f32| {
-            sigma.map(|sigma| if sigma == own { 1.0 } else { Real::exp((own - sigma) * distance) })
-        };
-        if hit.is_none() && t < walk.ray.t_max {
-            if !is_grey {
-                let densities = sigma * relative(t * speed);
-                walk.throughput = walk.throughput * course.reweigh(densities);
-            }
-            return Reach::Collision(walk.ray.at(t));
+    fn factor(&self, collides: bool, end: f32, course: &mut Course<'_>) -> Color {
+        if is_grey(self.sigma) {
+            return Color::white();
         }
-        let distance = hit.map_or(walk.ray.t_max, |hit| hit.t) * speed;
-        if own > 0.0 {
-            *thickness = (*thickness - own * distance).max(0.0);
-        }
-        if !is_grey {
-            walk.throughput = walk.throughput * course.reweigh(relative(distance));
-        }
-        Reach::Through(hit)
+        let distance = self.speed * if collides { self.t } else { end };
+        let own = self.own;
+        let passing = self.sigma.map(|sigma| {
+            // Equal ones differ by 0, also over an infinite distance.
+            if sigma == own { 1.0 } else { Real::exp((own - sigma) * distance) }
+        });
+        course.reweigh(if collides { self.sigma * passing } else { passing })
     }
 
-    /// Through a medium of varying density: tentative collisions as dense as a bound, each of which
-    /// is one with the share that the density has of it.
-    ///
-    /// # Source
-    /// Woodcock et al., "Techniques Used in the GEM Code for Monte Carlo Neutronics Calculations in
-    /// Reactors and Other Systems of Complex Geometry", ANL-7050, 1965.
+    /// The optical thickness that is left at `end`.
     #[inline]
-    fn track<S: Sampler>(
-        &self,
-        walk: &mut Walk,
-        course: &mut Course<'s>,
-        points: &S,
-        density: &Density,
-        numbers: &mut Pcg32,
-    ) -> Reach {
-        let hit = self.rays.intersect(&walk.ray);
-        let ray = Ray { t_max: hit.map_or(walk.ray.t_max, |hit| hit.t), ..walk.ray };
-        let channel = if density.is_coloured() { course.channel(points) } else { 0 };
-        let mut tentative = tentative(numbers, &ray, density);
-        while let Some((position, majorant)) = tentative.next() {
-            let sigma = density.at(position);
-            let is_real = tentative.uniform() * majorant < sigma.channel(channel);
-            if !is_grey(sigma) {
-                let densities = if is_real { sigma } else { Color::splat(majorant) - sigma };
-                walk.throughput = walk.throughput * course.reweigh(densities);
-            }
-            if is_real {
-                return Reach::Collision(position);
-            }
+    fn left(&self, end: f32) -> f32 {
+        if self.own > 0.0 {
+            (self.thickness - self.own * self.speed * end).max(0.0)
+        } else {
+            self.thickness
         }
-        Reach::Through(hit)
     }
+}
+
+/// Through a medium of varying density to the end of a ray: tentative collisions as dense as a bound,
+/// each of which is one with the share that the density has of it. The place of the collision, and
+/// the factor of the throughput.
+///
+/// # Source
+/// Woodcock et al., "Techniques Used in the GEM Code for Monte Carlo Neutronics Calculations in
+/// Reactors and Other Systems of Complex Geometry", ANL-7050, 1965.
+#[inline]
+fn track<S: Sampler>(
+    density: &Density,
+    ray: &Ray,
+    numbers: &mut Pcg32,
+    course: &mut Course<'_>,
+    points: &S,
+) -> (Option<Vec3>, Color) {
+    let channel = if density.is_coloured() { course.channel(points) } else { 0 };
+    let mut factor = Color::white();
+    let mut tentative = tentative(numbers, ray, density);
+    while let Some((position, majorant)) = tentative.next() {
+        let sigma = density.at(position);
+        let is_real = tentative.uniform() * majorant < sigma.channel(channel);
+        if !is_grey(sigma) {
+            let densities = if is_real { sigma } else { Color::splat(majorant) - sigma };
+            factor = factor * course.reweigh(densities);
+        }
+        if is_real {
+            return (Some(position), factor);
+        }
+    }
+    (None, factor)
 }
 
 /// Whether a medium takes the same of every channel.
