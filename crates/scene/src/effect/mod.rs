@@ -32,6 +32,8 @@ pub enum Effect {
     RoughReflection,
     /// Refraction by microfacets.
     RoughTransmission,
+    /// Disney's material of many lobes.
+    Principled,
     /// Surfaces that are partly not there.
     OpacityMask,
     /// Surfaces that light does not notice.
@@ -52,7 +54,7 @@ pub enum Effect {
 
 impl Effect {
     /// The whole vocabulary.
-    pub const ALL: [Self; 19] = [
+    pub const ALL: [Self; 20] = [
         Self::IndirectLight,
         Self::AreaLight,
         Self::PointLight,
@@ -64,6 +66,7 @@ impl Effect {
         Self::DeltaTransmission,
         Self::RoughReflection,
         Self::RoughTransmission,
+        Self::Principled,
         Self::OpacityMask,
         Self::PassThrough,
         Self::BitmapTexture,
@@ -88,6 +91,7 @@ impl Effect {
             Self::DeltaTransmission => "delta-transmission",
             Self::RoughReflection => "rough-reflection",
             Self::RoughTransmission => "rough-transmission",
+            Self::Principled => "principled",
             Self::OpacityMask => "opacity-mask",
             Self::PassThrough => "pass-through",
             Self::BitmapTexture => "bitmap-texture",
@@ -128,6 +132,9 @@ impl Effect {
             }
             Self::RoughTransmission => {
                 "the same with a choice between two sides, and light samples from both"
+            }
+            Self::Principled => {
+                "a model made twice, a random number and up to four lobes evaluated per surface met"
             }
             Self::OpacityMask => {
                 "a random number per surface met and a vertex of the path where it is not there"

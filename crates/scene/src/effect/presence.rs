@@ -130,6 +130,14 @@ fn effect_of_light(light: &Light) -> Effect {
     }
 }
 
+/// A material of many lobes refracts only where it has a share of transmission.
+fn principled(spec_trans: Option<TextureId>) -> &'static [Effect] {
+    match spec_trans {
+        None => &[Effect::RoughReflection, Effect::Principled],
+        Some(_) => &[Effect::RoughReflection, Effect::RoughTransmission, Effect::Principled],
+    }
+}
+
 fn effects_of_material(material: &Material) -> &'static [Effect] {
     const MIRROR: &[Effect] = &[Effect::DeltaReflection];
     const FACETS: &[Effect] = &[Effect::RoughReflection];
@@ -145,6 +153,8 @@ fn effects_of_material(material: &Material) -> &'static [Effect] {
         | Material::Plastic { surface: PlasticSurface::Smooth(_), .. } => MIRROR,
         Material::Conductor { roughness: Some(_), .. }
         | Material::Plastic { surface: PlasticSurface::Rough(_), .. } => FACETS,
+        Material::Principled(textures) => principled(textures.spec_trans),
+        Material::PrincipledThin(textures) => principled(textures.spec_trans),
         Material::Mask { .. } => &[Effect::OpacityMask],
         Material::Null => &[Effect::PassThrough],
     }

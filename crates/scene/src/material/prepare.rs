@@ -6,6 +6,7 @@ use etendue_brdf::{
     SmoothDielectric, ThinDielectric,
 };
 
+use super::model::{PrincipledModel, PrincipledThinModel};
 use super::prepared::Placed;
 use super::{
     ConductorIndex, Material, MaterialId, Materials, Model, OrenNayarForm, PlasticSurface,
@@ -20,20 +21,30 @@ const LEAST_ALPHA: f32 = 1e-4;
 
 /// The textures at one point of a surface.
 #[derive(Clone, Copy)]
-struct At<'a> {
+pub(super) struct At<'a> {
     textures: &'a Textures,
     uv: [f32; 2],
 }
 
 impl At<'_> {
     #[inline]
+    pub(super) fn color(self, id: TextureId) -> Color {
+        self.textures.color(id, self.uv)
+    }
+
+    #[inline]
+    pub(super) fn value(self, id: TextureId) -> f32 {
+        self.textures.value(id, self.uv)
+    }
+
+    #[inline]
     fn reflectance(self, id: TextureId) -> Reflectance<Color> {
-        Reflectance::clamped(self.textures.color(id, self.uv))
+        Reflectance::clamped(self.color(id))
     }
 
     #[inline]
     fn facets(self, roughness: &Roughness) -> Microfacets<f32> {
-        let alpha = |id| Alpha::clamped(self.textures.value(id, self.uv).max(LEAST_ALPHA));
+        let alpha = |id| Alpha::clamped(self.value(id).max(LEAST_ALPHA));
         let (u, v) = (alpha(roughness.alpha_u), alpha(roughness.alpha_v));
         Microfacets::new(roughness.distribution, u, v, roughness.masking)
     }
@@ -42,10 +53,9 @@ impl At<'_> {
     fn complex_ior(self, index: ConductorIndex) -> ComplexIor<Color> {
         match index {
             ConductorIndex::Mirror => ComplexIor::perfect(),
-            ConductorIndex::Complex { eta, k } => ComplexIor::clamped(
-                self.textures.color(eta, self.uv),
-                self.textures.color(k, self.uv),
-            ),
+            ConductorIndex::Complex { eta, k } => {
+                ComplexIor::clamped(self.color(eta), self.color(k))
+            }
         }
     }
 }
@@ -93,7 +103,7 @@ fn model<'a>(material: Option<&'a Material>, at: At) -> Model<'a> {
         }
         Material::RoughDiffuse { reflectance, sigma, form } => {
             let reflectance = at.reflectance(reflectance);
-            let sigma = Sigma::clamped(at.textures.value(sigma, at.uv));
+            let sigma = Sigma::clamped(at.value(sigma));
             match form {
                 OrenNayarForm::Full => Model::OrenNayar(OrenNayar::new(reflectance, sigma)),
                 OrenNayarForm::Qualitative => {
@@ -149,6 +159,10 @@ fn model<'a>(material: Option<&'a Material>, at: At) -> Model<'a> {
                     RoughPlastic::new(table, kd, scattering).with_specular_reflectance(ks),
                 ),
             }
+        }
+        Material::Principled(ref textures) => Model::Principled(PrincipledModel(textures.at(at))),
+        Material::PrincipledThin(ref textures) => {
+            Model::PrincipledThin(PrincipledThinModel(textures.at(at)))
         }
         // A mask or a two-sided material in a place for simple ones: `add` refuses it.
         Material::Mask { .. } | Material::TwoSided { .. } | Material::Null => {

@@ -115,11 +115,22 @@ impl Textures {
         }
     }
 
-    /// The luminance of the colour at `uv`; exactly `x` for a grey `(x, x, x)`.
+    /// The number at `uv`: the luminance of the colour, exactly `x` for a grey `(x, x, x)`.
+    ///
+    /// Numbers of a [`Checkerboard`] have its colours the other way round, as in Mitsuba 3 (3.9.1).
     #[inline]
     pub fn value(&self, id: TextureId, uv: [f32; 2]) -> f32 {
-        let color = self.color(id, uv);
-        if color.r == color.g && color.g == color.b { color.r } else { color.luminance() }
+        match self.get(id) {
+            Some(Texture::Checkerboard(board)) => {
+                let square = board.other_square(uv);
+                if square < id { self.value(square, uv) } else { 0.0 }
+            }
+            _ => {
+                let color = self.color(id, uv);
+                // The weights of the luminance add up to 1 only after rounding.
+                if color.r == color.g && color.g == color.b { color.r } else { color.luminance() }
+            }
+        }
     }
 
     /// All textures, constants included, in the order of [`TextureId`].
@@ -179,6 +190,19 @@ mod tests {
         let id = textures.add(Texture::Checkerboard(board));
         assert_eq!(textures.color(id, [0.1, 0.1]), Color::black());
         assert_eq!(textures.color(id, [0.6, 0.1]), Color::black());
+        assert_eq!(textures.value(id, [0.1, 0.1]), 0.0);
+    }
+
+    #[test]
+    fn numbers_of_a_checkerboard_are_the_other_way_round() {
+        let mut textures = Textures::default();
+        let [color0, color1] = [0.25, 0.75].map(|x| textures.constant(Color::splat(x)));
+        let board = Checkerboard { color0, color1, uv: UvTransform::IDENTITY };
+        let id = textures.add(Texture::Checkerboard(board));
+        for (uv, color, value) in [([0.1, 0.1], 0.25, 0.75), ([0.6, 0.1], 0.75, 0.25)] {
+            assert_eq!(textures.color(id, uv), Color::splat(color));
+            assert_eq!(textures.value(id, uv), value);
+        }
     }
 
     #[test]
