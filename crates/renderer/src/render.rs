@@ -78,7 +78,7 @@ impl<'a> Renderer<'a> {
             .thread_name(|i| format!("render {i}"))
             .build()
             .map_err(ThreadError)?;
-        let materials = PreparedMaterials::new(&scene.materials, &scene.textures);
+        let materials = PreparedMaterials::new(&scene.materials, &scene.textures, &scene.geometry);
         let lights = LightSampler::new(scene);
         let filter = FilterSampler::new(&scene.film);
         Ok(Self { scene, settings, materials, lights, filter, pool })

@@ -18,7 +18,7 @@ impl<R: Rays> PathTracer<'_, '_, R> {
     #[inline(always)]
     pub(super) fn direct_light<S: Sampler>(
         &self,
-        vertex: &Vertex<'_, '_>,
+        vertex: &Vertex<'_>,
         points: &S,
         rays: &mut RayCounts,
     ) -> Color {
@@ -46,7 +46,7 @@ impl<R: Rays> PathTracer<'_, '_, R> {
 
     /// A light sample; its density accounts for the choice of the light.
     #[inline(always)]
-    fn sample_light<S: Sampler>(&self, vertex: &Vertex<'_, '_>, points: &S) -> Option<LightSample> {
+    fn sample_light<S: Sampler>(&self, vertex: &Vertex<'_>, points: &S) -> Option<LightSample> {
         let u = if self.lights.count() > 1 {
             points.sample_1d(vertex.dimension(Decision::LightChoice))
         } else {

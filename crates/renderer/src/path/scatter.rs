@@ -13,7 +13,7 @@ impl<R: Rays> PathTracer<'_, '_, R> {
     #[inline(always)]
     pub(super) fn scatter<S: Sampler>(
         &self,
-        vertex: &Vertex<'_, '_>,
+        vertex: &Vertex<'_>,
         walk: &mut Walk,
         points: &S,
     ) -> Fate {
@@ -47,12 +47,7 @@ impl<R: Rays> PathTracer<'_, '_, R> {
     /// Whether strict normals forbid a direction, given in world and local coordinates: it lies on
     /// different sides of the surface and of its interpolated normal.
     #[inline(always)]
-    pub(super) fn is_inconsistent(
-        &self,
-        vertex: &Vertex<'_, '_>,
-        world: Vec3,
-        local: Vec3,
-    ) -> bool {
+    pub(super) fn is_inconsistent(&self, vertex: &Vertex<'_>, world: Vec3, local: Vec3) -> bool {
         self.settings.strict_normals && world.dot(vertex.point.normal) * local.z <= 0.0
     }
 
@@ -64,7 +59,7 @@ impl<R: Rays> PathTracer<'_, '_, R> {
     ///
     /// η² undoes the compression of radiance inside a medium, which the way out reverses.
     #[inline(always)]
-    fn roulette<S: Sampler>(&self, vertex: &Vertex<'_, '_>, walk: &mut Walk, points: &S) -> Fate {
+    fn roulette<S: Sampler>(&self, vertex: &Vertex<'_>, walk: &mut Walk, points: &S) -> Fate {
         let largest = walk.throughput.max_channel();
         // False for NaN, which goes on to be counted where it reaches the film.
         if largest <= 0.0 {

@@ -42,6 +42,8 @@ pub enum Effect {
     BitmapTexture,
     /// Two textures in squares.
     CheckerboardTexture,
+    /// Colours that meshes bring along.
+    MeshAttribute,
     /// Shapes that stand in several places.
     Instancing,
     /// A lens with an extent, out of whose focus things blur.
@@ -54,7 +56,7 @@ pub enum Effect {
 
 impl Effect {
     /// The whole vocabulary.
-    pub const ALL: [Self; 20] = [
+    pub const ALL: [Self; 21] = [
         Self::IndirectLight,
         Self::AreaLight,
         Self::PointLight,
@@ -71,6 +73,7 @@ impl Effect {
         Self::PassThrough,
         Self::BitmapTexture,
         Self::CheckerboardTexture,
+        Self::MeshAttribute,
         Self::Instancing,
         Self::DepthOfField,
         Self::HiddenEmitters,
@@ -96,6 +99,7 @@ impl Effect {
             Self::PassThrough => "pass-through",
             Self::BitmapTexture => "bitmap-texture",
             Self::CheckerboardTexture => "checkerboard-texture",
+            Self::MeshAttribute => "mesh-attribute",
             Self::Instancing => "instancing",
             Self::DepthOfField => "depth-of-field",
             Self::HiddenEmitters => "hidden-emitters",
@@ -142,6 +146,9 @@ impl Effect {
             Self::PassThrough => "a vertex of the path",
             Self::BitmapTexture => "four texels and a model of its own per surface met",
             Self::CheckerboardTexture => "a square found and a model of its own per surface met",
+            Self::MeshAttribute => {
+                "a copy of the point, a name found, a value of each corner and a model of its own per surface met"
+            }
             Self::Instancing => "a ray transformed and a second hierarchy entered per instance met",
             Self::DepthOfField => "two random numbers and a point on the lens per sample",
             Self::HiddenEmitters => "a further ray behind every emitter that the camera sees",

@@ -1,6 +1,6 @@
 //! Which effects a scene calls for.
 
-use alloc::collections::{BTreeMap, BTreeSet};
+use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
 
 use super::Effect;
@@ -68,16 +68,20 @@ impl Scene {
         );
         let lights = (0..).map(LightId).zip(&self.lights);
         causes.extend(lights.map(|(id, light)| (effect_of_light(light), Element::Light(id))));
-        let materials = self.materials_in_use();
+        let materials = self.materials.with_parts(self.surfaces.iter().map(|s| s.material));
         for &id in &materials {
             let Some(material) = self.materials.get(id) else { continue };
             causes
                 .extend(effects_of_material(material).iter().map(|&e| (e, Element::Material(id))));
         }
-        for id in self.textures_in_use(&materials) {
+        let of_materials = materials.iter().filter_map(|&id| self.materials.get(id));
+        let textures = of_materials.flat_map(Material::textures);
+        let textures = textures.chain(self.lights.iter().filter_map(Light::texture));
+        for id in self.textures.with_parts(textures) {
             let effect = match self.textures.get(id) {
                 Some(Texture::Bitmap(_)) => Effect::BitmapTexture,
                 Some(Texture::Checkerboard(_)) => Effect::CheckerboardTexture,
+                Some(Texture::Attribute(_)) => Effect::MeshAttribute,
                 Some(Texture::Constant(_)) | None => continue,
             };
             causes.push((effect, Element::Texture(id)));
@@ -88,34 +92,6 @@ impl Scene {
             causes.push((Effect::DepthOfField, Element::Camera));
         }
         causes
-    }
-
-    /// The materials of shapes and those that they are made of.
-    fn materials_in_use(&self) -> BTreeSet<MaterialId> {
-        let mut in_use = BTreeSet::new();
-        let mut rest: Vec<MaterialId> = self.surfaces.iter().map(|s| s.material).collect();
-        while let Some(id) = rest.pop() {
-            if in_use.insert(id) {
-                rest.extend(self.materials.get(id).into_iter().flat_map(Material::nested));
-            }
-        }
-        in_use
-    }
-
-    /// The textures of materials and lights and those that they are made of.
-    fn textures_in_use(&self, materials: &BTreeSet<MaterialId>) -> BTreeSet<TextureId> {
-        let mut in_use = BTreeSet::new();
-        let of_materials = materials.iter().filter_map(|&id| self.materials.get(id));
-        let mut rest: Vec<TextureId> = of_materials.flat_map(Material::textures).collect();
-        rest.extend(self.lights.iter().filter_map(Light::texture));
-        while let Some(id) = rest.pop() {
-            if in_use.insert(id)
-                && let Some(Texture::Checkerboard(board)) = self.textures.get(id)
-            {
-                rest.extend([board.color0, board.color1]);
-            }
-        }
-        in_use
     }
 }
 

@@ -10,6 +10,7 @@ mod prepared_materials;
 mod principled;
 
 use alloc::boxed::Box;
+use alloc::collections::BTreeSet;
 use alloc::sync::Arc;
 use alloc::vec::Vec;
 
@@ -20,7 +21,7 @@ use etendue_brdf::{
 
 pub use model::{Model, PrincipledModel, PrincipledThinModel};
 pub use prepared::{PreparedBsdf, Side};
-pub use prepared_materials::PreparedMaterials;
+pub use prepared_materials::{PreparedMaterials, Varying};
 pub use principled::{PrincipledTextures, PrincipledThinTextures};
 
 use crate::texture::TextureId;
@@ -220,6 +221,18 @@ impl Materials {
     /// All materials, in the order of [`MaterialId`].
     pub fn iter(&self) -> impl Iterator<Item = &Material> {
         self.materials.iter()
+    }
+
+    /// Materials and those that they are made of.
+    pub fn with_parts(&self, ids: impl IntoIterator<Item = MaterialId>) -> BTreeSet<MaterialId> {
+        let mut all = BTreeSet::new();
+        let mut rest: Vec<MaterialId> = ids.into_iter().collect();
+        while let Some(id) = rest.pop() {
+            if all.insert(id) {
+                rest.extend(self.get(id).into_iter().flat_map(Material::nested));
+            }
+        }
+        all
     }
 
     /// A material, or `None` for an unknown `id`.

@@ -13,7 +13,7 @@ use super::{
     PreparedBsdf, Roughness, Side,
 };
 use crate::Color;
-use crate::texture::{TextureId, Textures};
+use crate::texture::{TextureId, TexturePoint, Textures};
 
 /// The narrowest microfacet lobe of a rough material, as in Mitsuba: below, it is sharper than the
 /// directions of a picture can resolve.
@@ -23,18 +23,18 @@ const LEAST_ALPHA: f32 = 1e-4;
 #[derive(Clone, Copy)]
 pub(super) struct At<'a> {
     textures: &'a Textures,
-    uv: [f32; 2],
+    point: TexturePoint<'a>,
 }
 
 impl At<'_> {
     #[inline]
     pub(super) fn color(self, id: TextureId) -> Color {
-        self.textures.color(id, self.uv)
+        self.textures.color(id, self.point)
     }
 
     #[inline]
     pub(super) fn value(self, id: TextureId) -> f32 {
-        self.textures.value(id, self.uv)
+        self.textures.value(id, self.point)
     }
 
     #[inline]
@@ -61,24 +61,23 @@ impl At<'_> {
 }
 
 impl Materials {
-    /// The reflection model of a material where the texture coordinates are `uv`, looked at from one
-    /// side.
+    /// The reflection model of a material at a point, looked at from one side.
     ///
     /// A material that does not exist is [`Material::Null`].
     #[inline(never)]
-    pub fn prepare(
-        &self,
+    pub fn prepare<'a>(
+        &'a self,
         id: MaterialId,
-        textures: &Textures,
-        uv: [f32; 2],
+        textures: &'a Textures,
+        point: TexturePoint<'a>,
         side: Side,
-    ) -> PreparedBsdf<'_> {
-        let at = At { textures, uv };
+    ) -> PreparedBsdf<'a> {
+        let at = At { textures, point };
         let mut material = self.get(id);
         let mut opacity = 1.0;
         // Masks of masks end: each refers to a material before itself.
         while let Some(&Material::Mask { opacity: texture, nested }) = material {
-            opacity *= textures.value(texture, uv).min(1.0);
+            opacity *= at.value(texture).min(1.0);
             material = self.get(nested);
         }
         let mut placed_on = Side::Front;

@@ -30,7 +30,7 @@ impl Studio {
 
     /// The model looked at from `wo`.
     fn at(&self, id: MaterialId, wo: Vec3) -> PreparedBsdf<'_> {
-        self.materials.prepare(id, &self.textures, [0.5; 2], Side::of(wo))
+        self.materials.prepare(id, &self.textures, [0.5; 2].into(), Side::of(wo))
     }
 }
 

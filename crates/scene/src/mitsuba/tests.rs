@@ -125,6 +125,26 @@ fn principled_materials_have_an_index_by_either_name_and_transmit_only_on_demand
 }
 
 #[test]
+fn attributes_are_looked_up_on_the_meshes_that_have_them() {
+    let bsdf = "<bsdf type=\"diffuse\"><texture type=\"mesh_attribute\" name=\"reflectance\">\
+                <string name=\"name\" value=\"vertex_color\"/></texture></bsdf>";
+    refused(
+        &format!("<bsdf type=\"null\"/>\n<shape type=\"sphere\">{bsdf}</shape>"),
+        3,
+        "shape “sphere” has no attribute “vertex_color”",
+    );
+    let lamp = |name| {
+        format!(
+            "<shape type=\"sphere\"><emitter type=\"area\">\n\
+             <texture type=\"mesh_attribute\" name=\"radiance\">\
+             <string name=\"name\" value=\"{name}\"/></texture></emitter></shape>"
+        )
+    };
+    refused(&lamp("vertex_color"), 3, "“radiance” cannot be an attribute of a mesh");
+    refused(&lamp("color"), 3, "begins with neither “vertex_” nor “face_”");
+}
+
+#[test]
 fn unknown_plugins_and_parameters_are_named_with_those_that_exist() {
     refused(
         "<shape type=\"sphere\">\n<bsdf type=\"hair\"/></shape>",

@@ -4,18 +4,23 @@
 //! a material is a texture as well, a constant one. Every stored value is finite and not negative,
 //! which is what lets the code that uses it be total.
 
+mod attribute;
 mod bitmap;
 mod checkerboard;
 mod image;
+mod point;
 mod uv_transform;
 
+use alloc::collections::BTreeSet;
 use alloc::vec::Vec;
 
 use etendue_math::Spectrum;
 
+pub use attribute::AttributeTexture;
 pub use bitmap::{Bitmap, Filter, Wrap};
 pub use checkerboard::Checkerboard;
 pub use image::{BitmapError, BitmapImage};
+pub use point::TexturePoint;
 pub use uv_transform::UvTransform;
 
 use crate::Color;
@@ -33,6 +38,8 @@ pub enum Texture {
     Bitmap(Bitmap),
     /// Two textures in the squares of a checkerboard.
     Checkerboard(Checkerboard),
+    /// What a mesh brings along.
+    Attribute(AttributeTexture),
 }
 
 /// All textures of a scene.
@@ -80,6 +87,10 @@ impl Textures {
                 let max = self.max(a).zip(self.max(b), f32::max);
                 (Texture::Checkerboard(board), mean, max)
             }
+            Texture::Attribute(attribute) => {
+                let bound = Color::splat(attribute.scale);
+                (Texture::Attribute(attribute), bound, bound)
+            }
         };
         self.entries.push(Entry { texture, mean, max });
         id
@@ -90,47 +101,63 @@ impl Textures {
         self.add(Texture::Constant(color))
     }
 
-    /// The colour at texture coordinates `uv`: finite, not negative; black for an unknown `id`.
+    /// The colour at a point, which may be texture coordinates alone: finite, not negative; black for an unknown `id`.
     ///
     /// Coordinates that are NaN or infinite give some colour of the texture.
     #[inline(always)]
-    pub fn color(&self, id: TextureId, uv: [f32; 2]) -> Color {
+    pub fn color<'a>(&self, id: TextureId, at: impl Into<TexturePoint<'a>>) -> Color {
         match self.entries.get(id.0 as usize).map(|entry| &entry.texture) {
             Some(&Texture::Constant(color)) => color,
-            Some(texture) => self.varying(texture, id, uv),
+            Some(texture) => self.varying(texture, id, at.into()),
             None => Color::black(),
         }
     }
 
     /// The colour of a texture that is not constant. Out of line, so that constants do not pay for it.
     #[inline(never)]
-    fn varying(&self, texture: &Texture, id: TextureId, uv: [f32; 2]) -> Color {
+    fn varying(&self, texture: &Texture, id: TextureId, at: TexturePoint<'_>) -> Color {
         match texture {
             Texture::Constant(color) => *color,
-            Texture::Bitmap(bitmap) => bitmap.color(uv),
+            Texture::Bitmap(bitmap) => bitmap.color(at.uv),
             Texture::Checkerboard(board) => {
-                let square = board.square(uv);
-                if square < id { self.color(square, uv) } else { Color::black() }
+                let square = board.square(at.uv);
+                if square < id { self.color(square, at) } else { Color::black() }
             }
+            Texture::Attribute(attribute) => attribute.color(at),
         }
     }
 
-    /// The number at `uv`: the luminance of the colour, exactly `x` for a grey `(x, x, x)`.
+    /// The number at a point: the luminance of the colour, exactly `x` for a grey `(x, x, x)`.
     ///
     /// Numbers of a [`Checkerboard`] have its colours the other way round, as in Mitsuba 3 (3.9.1).
     #[inline]
-    pub fn value(&self, id: TextureId, uv: [f32; 2]) -> f32 {
+    pub fn value<'a>(&self, id: TextureId, at: impl Into<TexturePoint<'a>>) -> f32 {
+        let at = at.into();
         match self.get(id) {
             Some(Texture::Checkerboard(board)) => {
-                let square = board.other_square(uv);
-                if square < id { self.value(square, uv) } else { 0.0 }
+                let square = board.other_square(at.uv);
+                if square < id { self.value(square, at) } else { 0.0 }
             }
             _ => {
-                let color = self.color(id, uv);
+                let color = self.color(id, at);
                 // The weights of the luminance add up to 1 only after rounding.
                 if color.r == color.g && color.g == color.b { color.r } else { color.luminance() }
             }
         }
+    }
+
+    /// Textures and those that they are made of.
+    pub fn with_parts(&self, ids: impl IntoIterator<Item = TextureId>) -> BTreeSet<TextureId> {
+        let mut all = BTreeSet::new();
+        let mut rest: Vec<TextureId> = ids.into_iter().collect();
+        while let Some(id) = rest.pop() {
+            if all.insert(id)
+                && let Some(Texture::Checkerboard(board)) = self.get(id)
+            {
+                rest.extend([board.color0, board.color1]);
+            }
+        }
+        all
     }
 
     /// All textures, constants included, in the order of [`TextureId`].
@@ -153,12 +180,13 @@ impl Textures {
         self.entries.is_empty()
     }
 
-    /// The mean over the unit square of the untransformed texture: over the texels of a bitmap.
+    /// The mean over the unit square of the untransformed texture: over the texels of a bitmap. An attribute, of which only
+    /// meshes know more, counts as 1 times its scale.
     pub fn mean(&self, id: TextureId) -> Color {
         self.entries.get(id.0 as usize).map_or(Color::black(), |entry| entry.mean)
     }
 
-    /// An upper bound of each channel.
+    /// An upper bound of each channel; of an attribute one for values up to 1.
     pub fn max(&self, id: TextureId) -> Color {
         self.entries.get(id.0 as usize).map_or(Color::black(), |entry| entry.max)
     }
