@@ -143,6 +143,22 @@ def smoke(x, y, z):
     return 0.1 + ((3 * x + 5 * y + 7 * z) % 11) / 11
 
 
+def octahedron(path):
+    """A colour of each vertex and a number of each face."""
+    corners = [(0, 0, 1), (1, 0, 0), (0, 1, 0), (-1, 0, 0), (0, -1, 0), (0, 0, -1)]
+    colors = [(0.9, 0.9, 0.9), (0.9, 0.1, 0.1), (0.1, 0.9, 0.1), (0.1, 0.1, 0.9), (0.9, 0.9, 0.1), (0.1, 0.1, 0.1)]
+    faces = [(0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1), (5, 2, 1), (5, 3, 2), (5, 4, 3), (5, 1, 4)]
+    weights = [0.05, 0.9, 0.2, 0.7, 0.4, 0.6, 0.3, 0.8]
+    lines = ["ply", "format ascii 1.0", "comment an octahedron with a colour of each vertex and a weight of each face"]
+    lines += ["element vertex 6"] + ["property float " + name for name in ["x", "y", "z"]]
+    lines += ["property float color_%d" % i for i in range(3)]
+    lines += ["element face 8", "property list uchar int vertex_indices", "property float weight_0", "end_header"]
+    lines += [" ".join(map(str, vertex)) for vertex in (p + c for p, c in zip(corners, colors))]
+    lines += ["3 %d %d %d %g" % (face + (weight,)) for face, weight in zip(faces, weights)]
+    with open(path, "w") as file:
+        file.write("\n".join(lines) + "\n")
+
+
 def main():
     here = os.path.dirname(os.path.abspath(__file__))
     folder = sys.argv[1] if len(sys.argv) > 1 else os.path.join(here, "assets")
@@ -162,6 +178,7 @@ def main():
     ply(path("torus-ascii.ply"), is_binary=False)
     vol(path("grey.vol"), (6, 4, 5), 1, lambda x, y, z: (smoke(x, y, z) * (x + y > 2),))
     vol(path("rgb.vol"), (4, 3, 5), 3, lambda x, y, z: [0.9 * smoke(*p) for p in ((x, y, z), (y, z, x), (z, x, y))])
+    octahedron(path("octahedron.ply"))
     with open(path("leaf.spd"), "w") as file:
         file.write("# wavelength in nm, reflectance\n400 0.05\n500 0.1\n550 0.35\n600 0.15\n680 0.05\n720 0.5\n")
 

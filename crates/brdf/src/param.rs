@@ -77,6 +77,12 @@ pub(crate) fn within<T: Real>(
     }
 }
 
+/// `x` moved into `[low, high]`; NaN becomes `low`.
+#[inline]
+pub(crate) fn clamped<T: Real>(x: T, [low, high]: [f64; 2]) -> T {
+    x.clamp_to(T::lit(low), T::lit(high))
+}
+
 /// `color` when all its channels lie in `[low, high]`; −0 becomes 0.
 fn each_within<C: Spectrum>(
     parameter: &'static str,

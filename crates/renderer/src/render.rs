@@ -79,7 +79,7 @@ impl<'a> Renderer<'a> {
             .thread_name(|i| format!("render {i}"))
             .build()
             .map_err(ThreadError)?;
-        let materials = PreparedMaterials::new(&scene.materials, &scene.textures);
+        let materials = PreparedMaterials::new(&scene.materials, &scene.textures, &scene.geometry);
         let lights = LightSampler::new(scene);
         let filter = FilterSampler::new(&scene.film);
         let transport = TransportKind::of(scene, &settings);

@@ -12,7 +12,7 @@ use etendue_math::Vector3;
 
 use crate::camera::Camera;
 use crate::film::Film;
-use crate::geometry::{Geometry, SurfacePoint};
+use crate::geometry::{Geometry, Located, SurfacePoint};
 use crate::light::{Light, LightId};
 use crate::material::{MaterialId, Materials, PreparedBsdf, Side};
 use crate::medium::{Boundary, Media, MediumId};
@@ -160,11 +160,17 @@ impl Scene {
         !self.media_in_use().is_empty() || self.surfaces.iter().any(may_pass)
     }
 
+    /// A point that the geometry has given, as [`prepare`](Self::prepare) takes it.
+    #[inline]
+    pub fn locate(&self, point: SurfacePoint) -> Located<'_> {
+        Located::new(&self.geometry, point)
+    }
+
     /// The reflection model at a point looked at from one side, for directions in its shading frame.
     #[inline]
-    pub fn prepare(&self, point: &SurfacePoint, side: Side) -> PreparedBsdf<'_> {
-        let material = self.surfaces[point.shape.0 as usize].material;
-        self.materials.prepare(material, &self.textures, point.uv, side)
+    pub fn prepare<'a>(&'a self, surface: &'a Located<'a>, side: Side) -> PreparedBsdf<'a> {
+        let material = self.surfaces[surface.point().shape.0 as usize].material;
+        self.materials.prepare(material, &self.textures, surface.into(), side)
     }
 }
 

@@ -80,6 +80,8 @@ fn material_name(material: &Material) -> &'static str {
         Material::Conductor { roughness: None, .. } => "conductor",
         Material::Conductor { .. } => "rough conductor",
         Material::Plastic { .. } => "plastic",
+        Material::Principled(_) => "principled",
+        Material::PrincipledThin(_) => "thin principled",
         Material::Mask { .. } => "mask",
         Material::TwoSided { .. } => "two-sided",
         Material::Null => "null",

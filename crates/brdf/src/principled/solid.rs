@@ -119,14 +119,24 @@ impl<C: Spectrum> Principled<C> {
     /// [`ParameterError`] where a parameter lies outside its domain.
     pub fn new(parameters: PrincipledParameters<C>) -> Result<Self, ParameterError> {
         parameters.check()?;
-        let p = parameters;
+        Ok(Self::of_checked(parameters))
+    }
+
+    /// The same with every parameter moved into its domain, NaN to its lower end: for values read from textures.
+    #[inline]
+    pub fn clamped(parameters: PrincipledParameters<C>) -> Self {
+        Self::of_checked(parameters.clamped())
+    }
+
+    #[inline]
+    fn of_checked(p: PrincipledParameters<C>) -> Self {
         let one = <C::Real as Real>::ONE;
         let transmission = (one - p.metallic) * p.spec_trans;
         let matched = p.eta == one && transmission > C::Real::ZERO;
         let eta = if matched { C::Real::lit(1.001) } else { p.eta };
         let matter = (one - p.metallic) * (one - p.spec_trans);
         let clearcoat = Clearcoat::new(p.clearcoat, p.clearcoat_gloss);
-        Ok(Self {
+        Self {
             from_above: RelativeIndex::from_above(eta),
             from_below: RelativeIndex::from_below(eta),
             facets: facets(p.roughness, p.anisotropic),
@@ -142,7 +152,7 @@ impl<C: Spectrum> Principled<C> {
                 specular: p.main_specular_sampling_rate,
             }
             .normalized(),
-        })
+        }
     }
 
     /// `None` from below where nothing is transmitted.
@@ -397,5 +407,25 @@ mod tests {
         assert!(broken(|p| p.roughness = f64::NAN));
         assert!(broken(|p| p.clearcoat_gloss = -0.1));
         assert!(broken(|p| p.clearcoat_sampling_rate = f64::INFINITY));
+    }
+
+    #[test]
+    fn what_a_texture_says_is_moved_into_its_domain() {
+        let beyond = PrincipledParameters {
+            base_color: 1.5,
+            metallic: f64::NAN,
+            clearcoat: 3.0,
+            eta: 1e9,
+            ..everything()
+        };
+        let ends = PrincipledParameters {
+            base_color: 1.0,
+            metallic: 0.0,
+            clearcoat: 1.0,
+            eta: 1e4,
+            ..everything()
+        };
+        assert_eq!(Principled::clamped(beyond), Principled::new(ends).unwrap());
+        assert_eq!(Principled::clamped(everything()), Principled::new(everything()).unwrap());
     }
 }

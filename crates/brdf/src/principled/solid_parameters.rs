@@ -2,8 +2,8 @@
 
 use etendue_math::{Real, Spectrum};
 
-use super::domains::{self, unit};
-use crate::ParameterError;
+use super::domains::{self, clamped_unit, unit};
+use crate::{ParameterError, Reflectance};
 
 /// Parameters of [`Principled`](crate::Principled), with the names and defaults of Mitsuba 3.
 ///
@@ -88,6 +88,28 @@ impl<C: Spectrum> PrincipledParameters<C> {
     pub fn with_specular(self, specular: C::Real) -> Result<Self, ParameterError> {
         unit("specular", specular)?;
         Ok(Self { eta: eta_of_specular(specular), ..self })
+    }
+
+    /// Every parameter moved into its domain, NaN to its lower end: for values read from textures.
+    pub(super) fn clamped(self) -> Self {
+        let rate = domains::clamped_rate;
+        Self {
+            base_color: Reflectance::clamped(self.base_color).value(),
+            roughness: clamped_unit(self.roughness),
+            anisotropic: clamped_unit(self.anisotropic),
+            metallic: clamped_unit(self.metallic),
+            spec_trans: clamped_unit(self.spec_trans),
+            eta: domains::clamped_eta(self.eta),
+            spec_tint: clamped_unit(self.spec_tint),
+            sheen: clamped_unit(self.sheen),
+            sheen_tint: clamped_unit(self.sheen_tint),
+            flatness: clamped_unit(self.flatness),
+            clearcoat: clamped_unit(self.clearcoat),
+            clearcoat_gloss: clamped_unit(self.clearcoat_gloss),
+            diffuse_reflectance_sampling_rate: rate(self.diffuse_reflectance_sampling_rate),
+            main_specular_sampling_rate: rate(self.main_specular_sampling_rate),
+            clearcoat_sampling_rate: rate(self.clearcoat_sampling_rate),
+        }
     }
 
     /// Checks every domain.

@@ -91,14 +91,24 @@ impl<C: Spectrum> PrincipledThin<C> {
     /// [`ParameterError`] where a parameter lies outside its domain.
     pub fn new(parameters: PrincipledThinParameters<C>) -> Result<Self, ParameterError> {
         parameters.check()?;
-        let p = parameters;
+        Ok(Self::of_checked(parameters))
+    }
+
+    /// The same with every parameter moved into its domain, NaN to its lower end: for values read from textures.
+    #[inline]
+    pub fn clamped(parameters: PrincipledThinParameters<C>) -> Self {
+        Self::of_checked(parameters.clamped())
+    }
+
+    #[inline]
+    fn of_checked(p: PrincipledThinParameters<C>) -> Self {
         let (zero, one, half) = (<C::Real as Real>::ZERO, <C::Real as Real>::ONE, C::Real::HALF);
         let through = p.diff_trans * half;
         let reflected = (one - p.spec_trans) * (one - through);
         let transmitted = (one - p.spec_trans) * through;
         // Burley's fit of how much two refractions blur (2015, figure 15).
         let scaled = (C::Real::lit(0.65) * p.eta - C::Real::lit(0.35)) * p.roughness;
-        Ok(Self {
+        Self {
             index: RelativeIndex::from_above(p.eta),
             reflecting: facets(p.roughness, p.anisotropic),
             transmitting: facets(scaled, p.anisotropic),
@@ -115,7 +125,7 @@ impl<C: Spectrum> PrincipledThin<C> {
                 diffuse_transmission: transmitted * p.diffuse_transmittance_sampling_rate,
             }
             .normalized(),
-        })
+        }
     }
 
     #[inline]
@@ -314,5 +324,16 @@ mod tests {
         ] {
             assert!(PrincipledThin::new(parameters).is_err(), "{parameters:?}");
         }
+    }
+
+    #[test]
+    fn what_a_texture_says_is_moved_into_its_domain() {
+        let beyond = PrincipledThinParameters { diff_trans: 9.0, sheen: f64::NAN, ..everything() };
+        let ends = PrincipledThinParameters { diff_trans: 2.0, sheen: 0.0, ..everything() };
+        assert_eq!(PrincipledThin::clamped(beyond), PrincipledThin::new(ends).unwrap());
+        assert_eq!(
+            PrincipledThin::clamped(everything()),
+            PrincipledThin::new(everything()).unwrap()
+        );
     }
 }

@@ -2,9 +2,9 @@
 
 use etendue_math::{Real, Spectrum};
 
-use super::domains;
-use crate::ParameterError;
-use crate::param::within;
+use super::domains::{self, clamped_unit};
+use crate::param::{clamped, within};
+use crate::{ParameterError, Reflectance};
 
 /// Parameters of [`PrincipledThin`](crate::PrincipledThin), with the names and defaults of Mitsuba 3.
 ///
@@ -64,6 +64,27 @@ impl<C: Spectrum> Default for PrincipledThinParameters<C> {
 }
 
 impl<C: Spectrum> PrincipledThinParameters<C> {
+    /// Every parameter moved into its domain, NaN to its lower end: for values read from textures.
+    pub(super) fn clamped(self) -> Self {
+        let rate = domains::clamped_rate;
+        Self {
+            base_color: Reflectance::clamped(self.base_color).value(),
+            roughness: clamped_unit(self.roughness),
+            anisotropic: clamped_unit(self.anisotropic),
+            spec_trans: clamped_unit(self.spec_trans),
+            eta: domains::clamped_eta(self.eta),
+            spec_tint: clamped_unit(self.spec_tint),
+            sheen: clamped_unit(self.sheen),
+            sheen_tint: clamped_unit(self.sheen_tint),
+            flatness: clamped_unit(self.flatness),
+            diff_trans: clamped(self.diff_trans, [0.0, 2.0]),
+            specular_reflectance_sampling_rate: rate(self.specular_reflectance_sampling_rate),
+            specular_transmittance_sampling_rate: rate(self.specular_transmittance_sampling_rate),
+            diffuse_reflectance_sampling_rate: rate(self.diffuse_reflectance_sampling_rate),
+            diffuse_transmittance_sampling_rate: rate(self.diffuse_transmittance_sampling_rate),
+        }
+    }
+
     /// Checks every domain.
     pub(super) fn check(&self) -> Result<(), ParameterError> {
         let shares = [

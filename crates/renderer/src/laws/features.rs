@@ -5,7 +5,8 @@ use core::sync::atomic::AtomicBool;
 use etendue_brdf::Bsdf;
 use etendue_math::glam::{DVec3, Vec3};
 use etendue_math::{Real, Spectrum};
-use etendue_scene::material::{PreparedMaterials, Side};
+use etendue_scene::geometry::Ray;
+use etendue_scene::material::{PreparedMaterials, Side, Varying};
 use etendue_scene::{Color, Scene};
 
 use super::scenes::{Sketch, rectangle, settings, sphere};
@@ -64,9 +65,12 @@ fn an_albedo_without_a_closed_form_is_estimated() {
     sketch.shape(rectangle(DVec3::ZERO, [4.0, 4.0], DVec3::Z), metal);
     sketch.sky(1.0);
     let scene = sketch.point_seen(DVec3::new(0.0, -1.0, 1.0), DVec3::ZERO);
-    let materials = PreparedMaterials::new(&scene.materials, &scene.textures);
-    let mut varying = None;
-    let model = materials.at(metal, [0.5; 2], Side::Front, &mut varying);
+    let materials = PreparedMaterials::new(&scene.materials, &scene.textures, &scene.geometry);
+    let ray = Ray::new(Vec3::Z, -Vec3::Z);
+    let hit = scene.geometry.intersect(&ray).expect("the metal is below");
+    let point = scene.geometry.surface_point(&ray, &hit);
+    let mut varying = Varying::default();
+    let model = materials.at(metal, &point, Side::Front, &mut varying);
     let wo = Vec3::new(0.0, -1.0, 1.0) * core::f32::consts::FRAC_1_SQRT_2;
     assert!(model.albedo(wo).is_none(), "no closed form");
     let albedo = features(&scene, 20_000, settings(None, Strategy::Mis))[0].albedo.r;

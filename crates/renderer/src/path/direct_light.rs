@@ -18,7 +18,7 @@ impl<R: Rays> PathTracer<'_, '_, R> {
     #[inline(always)]
     pub(super) fn direct_light<S: Sampler>(
         &self,
-        vertex: &Vertex<'_, '_>,
+        vertex: &Vertex<'_>,
         points: &S,
         rays: &mut RayCounts,
     ) -> Color {
@@ -33,7 +33,7 @@ impl<R: Rays> PathTracer<'_, '_, R> {
     #[inline(always)]
     pub(super) fn unoccluded_light<S: Sampler>(
         &self,
-        vertex: &Vertex<'_, '_>,
+        vertex: &Vertex<'_>,
         points: &S,
     ) -> Option<(Color, LightSample)> {
         if self.light_sampling == LightSampling::Useless || !vertex.bsdf.lobes().continuous {

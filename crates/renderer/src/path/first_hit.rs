@@ -5,6 +5,7 @@ use etendue_math::Spectrum;
 use etendue_sampling::{Decision, Sampler};
 use etendue_scene::Color;
 use etendue_scene::geometry::{Ray, Rays, SurfacePoint};
+use etendue_scene::material::Varying;
 
 use super::{PathTracer, Walk};
 use crate::statistics::RayCounts;
@@ -25,7 +26,7 @@ impl<R: Rays> PathTracer<'_, '_, R> {
     pub(crate) fn first_hit<S: Sampler>(&self, camera_ray: Ray, points: &S) -> Option<FirstHit> {
         let mut walk = Walk::from_camera(camera_ray);
         let point = self.next_surface(&mut walk, &mut RayCounts::default())?;
-        let mut varying = None;
+        let mut varying = Varying::default();
         let vertex = self.vertex(1, &point, walk.ray.direction, &mut varying);
         let albedo = vertex.bsdf.albedo(vertex.wo).unwrap_or_else(|| {
             let u_lobe = points.sample_1d(vertex.dimension(Decision::LobeChoice));

@@ -14,7 +14,7 @@ use etendue_math::glam::Vec3;
 use etendue_sampling::{Decision, Dimension};
 use etendue_scene::geometry::{Hit, Ray, Rays, SurfacePoint};
 use etendue_scene::light::Light;
-use etendue_scene::material::{PreparedBsdf, PreparedMaterials, Side};
+use etendue_scene::material::{PreparedBsdf, PreparedMaterials, Side, Varying};
 use etendue_scene::scene::PathSettings;
 use etendue_scene::{Color, Scene};
 
@@ -85,17 +85,17 @@ enum View {
 }
 
 /// A surface that a path has met.
-struct Vertex<'a, 's> {
+struct Vertex<'a> {
     /// Its address: the number of edges from the camera to here, those that only pass included.
     depth: u16,
     point: &'a SurfacePoint,
-    bsdf: &'a PreparedBsdf<'s>,
+    bsdf: &'a PreparedBsdf<'a>,
     /// Towards the camera, in the shading frame.
     wo: Vec3,
     receiver: Receiver,
 }
 
-impl Vertex<'_, '_> {
+impl Vertex<'_> {
     fn dimension(&self, decision: Decision) -> Dimension {
         Dimension::vertex(self.depth, decision)
     }
@@ -208,11 +208,11 @@ impl<'a, 's, R: Rays> PathTracer<'a, 's, R> {
         depth: u16,
         point: &'v SurfacePoint,
         direction: Vec3,
-        varying: &'v mut Option<PreparedBsdf<'s>>,
-    ) -> Vertex<'v, 's> {
+        varying: &'v mut Varying<'v>,
+    ) -> Vertex<'v> {
         let wo = point.shading.to_local(-direction);
         let material = self.scene.surfaces[point.shape.0 as usize].material;
-        let bsdf = self.materials.at(material, point.uv, Side::of(wo), varying);
+        let bsdf = self.materials.at(material, point, Side::of(wo), varying);
         let normal = if wo.z < 0.0 { -point.shading.n } else { point.shading.n };
         let sides = if bsdf.lobes().transmission { Sides::Both } else { Sides::Front };
         let receiver = Receiver { position: point.position, normal, sides };

@@ -13,7 +13,7 @@ impl<R: Rays> PathTracer<'_, '_, R> {
     #[inline(always)]
     pub(super) fn scatter<T: Transport, S: Sampler>(
         &self,
-        vertex: &Vertex<'_, '_>,
+        vertex: &Vertex<'_>,
         edges: u16,
         walk: &mut Walk,
         points: &S,
@@ -55,12 +55,7 @@ impl<R: Rays> PathTracer<'_, '_, R> {
     /// Whether strict normals forbid a direction, given in world and local coordinates: it lies on
     /// different sides of the surface and of its interpolated normal.
     #[inline(always)]
-    pub(super) fn is_inconsistent(
-        &self,
-        vertex: &Vertex<'_, '_>,
-        world: Vec3,
-        local: Vec3,
-    ) -> bool {
+    pub(super) fn is_inconsistent(&self, vertex: &Vertex<'_>, world: Vec3, local: Vec3) -> bool {
         self.settings.strict_normals && world.dot(vertex.point.normal) * local.z <= 0.0
     }
 

@@ -4,6 +4,7 @@ use etendue_math::Spectrum;
 use etendue_sampling::Sampler;
 use etendue_scene::Color;
 use etendue_scene::geometry::{Ray, Rays};
+use etendue_scene::material::Varying;
 
 use super::transport::{Surfaces, Transport};
 use super::{Fate, PathTracer, Walk};
@@ -32,7 +33,7 @@ impl Transport for Surfaces {
             if depth == longest {
                 break;
             }
-            let mut varying = None;
+            let mut varying = Varying::default();
             let vertex = tracer.vertex(depth, &point, walk.ray.direction, &mut varying);
             if tracer.is_inconsistent(&vertex, -walk.ray.direction, vertex.wo) {
                 break;

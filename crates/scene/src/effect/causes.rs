@@ -24,6 +24,7 @@ pub(super) fn of_texture(texture: &Texture) -> Option<Effect> {
         Texture::Constant(_) => None,
         Texture::Bitmap(_) => Some(Effect::BitmapTexture),
         Texture::Checkerboard(_) => Some(Effect::CheckerboardTexture),
+        Texture::Attribute(_) => Some(Effect::MeshAttribute),
     }
 }
 
@@ -49,6 +50,8 @@ pub(super) fn of_lobes(material: &mut Material) -> impl Iterator<Item = (Effect,
             PlasticSurface::Smooth(_) => (DELTA, Some(specular_reflectance), None),
             PlasticSurface::Rough(_) => (ROUGH, Some(specular_reflectance), None),
         },
+        Material::Principled(textures) => (ROUGH, None, textures.spec_trans.as_mut()),
+        Material::PrincipledThin(textures) => (ROUGH, None, textures.spec_trans.as_mut()),
         Material::Diffuse { .. }
         | Material::RoughDiffuse { .. }
         | Material::TwoSided { .. }
@@ -62,6 +65,7 @@ pub(super) fn of_lobes(material: &mut Material) -> impl Iterator<Item = (Effect,
 /// The effect that a material is as a whole.
 pub(super) fn of_surface(material: &Material) -> Option<Effect> {
     match material {
+        Material::Principled(_) | Material::PrincipledThin(_) => Some(Effect::Principled),
         Material::Mask { .. } => Some(Effect::OpacityMask),
         Material::Null => Some(Effect::PassThrough),
         _ => None,

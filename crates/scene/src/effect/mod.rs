@@ -35,6 +35,8 @@ pub enum Effect {
     RoughReflection,
     /// Refraction by microfacets.
     RoughTransmission,
+    /// Disney's material of many lobes.
+    Principled,
     /// Surfaces that are partly not there.
     OpacityMask,
     /// Surfaces that light does not notice.
@@ -43,6 +45,8 @@ pub enum Effect {
     BitmapTexture,
     /// Two textures in squares.
     CheckerboardTexture,
+    /// Colours that meshes bring along.
+    MeshAttribute,
     /// Matter of the same density everywhere, that scatters and absorbs.
     HomogeneousMedium,
     /// Matter whose density differs from place to place.
@@ -63,7 +67,7 @@ pub enum Effect {
 
 impl Effect {
     /// The whole vocabulary.
-    pub const ALL: [Self; 23] = [
+    pub const ALL: [Self; 25] = [
         Self::IndirectLight,
         Self::AreaLight,
         Self::PointLight,
@@ -75,10 +79,12 @@ impl Effect {
         Self::DeltaTransmission,
         Self::RoughReflection,
         Self::RoughTransmission,
+        Self::Principled,
         Self::OpacityMask,
         Self::PassThrough,
         Self::BitmapTexture,
         Self::CheckerboardTexture,
+        Self::MeshAttribute,
         Self::HomogeneousMedium,
         Self::HeterogeneousMedium,
         Self::ColouredExtinction,
@@ -103,10 +109,12 @@ impl Effect {
             Self::DeltaTransmission => "delta-transmission",
             Self::RoughReflection => "rough-reflection",
             Self::RoughTransmission => "rough-transmission",
+            Self::Principled => "principled",
             Self::OpacityMask => "opacity-mask",
             Self::PassThrough => "pass-through",
             Self::BitmapTexture => "bitmap-texture",
             Self::CheckerboardTexture => "checkerboard-texture",
+            Self::MeshAttribute => "mesh-attribute",
             Self::HomogeneousMedium => "homogeneous-medium",
             Self::HeterogeneousMedium => "heterogeneous-medium",
             Self::ColouredExtinction => "coloured-extinction",
@@ -148,12 +156,18 @@ impl Effect {
             Self::RoughTransmission => {
                 "the same with a choice between two sides, and light samples from both"
             }
+            Self::Principled => {
+                "a model made twice, a random number and up to four lobes evaluated per surface met"
+            }
             Self::OpacityMask => {
                 "a random number per surface met and a vertex of the path where it is not there"
             }
             Self::PassThrough => "a vertex of the path",
             Self::BitmapTexture => "four texels and a model of its own per surface met",
             Self::CheckerboardTexture => "a square found and a model of its own per surface met",
+            Self::MeshAttribute => {
+                "a copy of the point, a name found, a value of each corner and a model of its own per surface met"
+            }
             Self::HomogeneousMedium => {
                 "a random number per ray in it and a vertex per collision, shadow rays that stop at every surface"
             }

@@ -1,6 +1,6 @@
 //! Which effects a scene calls for.
 
-use alloc::collections::{BTreeMap, BTreeSet};
+use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
 
 use etendue_math::Spectrum;
@@ -11,7 +11,7 @@ use crate::Scene;
 use crate::light::{Light, LightId};
 use crate::material::{Material, MaterialId};
 use crate::medium::MediumId;
-use crate::texture::{Texture, TextureId};
+use crate::texture::TextureId;
 
 /// A part of a scene that calls for an effect.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -75,7 +75,7 @@ impl Scene {
         );
         let lights = (0..).map(LightId).zip(&self.lights);
         causes.extend(lights.map(|(id, light)| (of_light(light), Element::Light(id))));
-        let materials = self.materials_in_use();
+        let materials = self.materials.with_parts(self.surfaces.iter().map(|s| s.material));
         for &id in &materials {
             let Some(mut material) = self.materials.get(id).cloned() else { continue };
             let black = |factor: TextureId| {
@@ -86,7 +86,10 @@ impl Scene {
             let effects = effects.into_iter().chain(of_surface(&material));
             causes.extend(effects.map(|effect| (effect, Element::Material(id))));
         }
-        for id in self.textures_in_use(&materials) {
+        let of_materials = materials.iter().filter_map(|&id| self.materials.get(id));
+        let textures = of_materials.flat_map(Material::textures);
+        let textures = textures.chain(self.lights.iter().filter_map(Light::texture));
+        for id in self.textures.with_parts(textures) {
             let effect = self.textures.get(id).and_then(of_texture);
             causes.extend(effect.map(|effect| (effect, Element::Texture(id))));
         }
@@ -100,34 +103,6 @@ impl Scene {
             causes.push((Effect::DepthOfField, Element::Camera));
         }
         causes
-    }
-
-    /// The materials of shapes and those that they are made of.
-    fn materials_in_use(&self) -> BTreeSet<MaterialId> {
-        let mut in_use = BTreeSet::new();
-        let mut rest: Vec<MaterialId> = self.surfaces.iter().map(|s| s.material).collect();
-        while let Some(id) = rest.pop() {
-            if in_use.insert(id) {
-                rest.extend(self.materials.get(id).into_iter().flat_map(Material::nested));
-            }
-        }
-        in_use
-    }
-
-    /// The textures of materials and lights and those that they are made of.
-    fn textures_in_use(&self, materials: &BTreeSet<MaterialId>) -> BTreeSet<TextureId> {
-        let mut in_use = BTreeSet::new();
-        let of_materials = materials.iter().filter_map(|&id| self.materials.get(id));
-        let mut rest: Vec<TextureId> = of_materials.flat_map(Material::textures).collect();
-        rest.extend(self.lights.iter().filter_map(Light::texture));
-        while let Some(id) = rest.pop() {
-            if in_use.insert(id)
-                && let Some(Texture::Checkerboard(board)) = self.textures.get(id)
-            {
-                rest.extend([board.color0, board.color1]);
-            }
-        }
-        in_use
     }
 }
 

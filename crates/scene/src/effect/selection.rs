@@ -18,7 +18,7 @@ impl Scene {
     ///
     /// * light: lights are not there, shapes that emit are dark, paths end at the second edge without indirect light;
     /// * reflection and transmission: the lobe is black, and a surface that has no other one is black altogether;
-    /// * opacity masks: surfaces are whole; pass-through: they are black;
+    /// * principled materials are diffuse; surfaces with opacity masks are whole, those that let light pass are black;
     /// * textures: their mean is everywhere;
     /// * media are not there, take as much of every colour, scatter evenly;
     /// * instances are not there, everything is in focus, emitters are seen, normals need not agree.
@@ -75,6 +75,12 @@ fn changed(
     if of_surface(material).is_some_and(out) {
         return Some(match *material {
             Material::Mask { nested: MaterialId(id), .. } => earlier[id as usize].clone(),
+            Material::Principled(ref textures) => {
+                Material::Diffuse { reflectance: textures.base_color }
+            }
+            Material::PrincipledThin(ref textures) => {
+                Material::Diffuse { reflectance: textures.base_color }
+            }
             _ => absorber,
         });
     }
@@ -87,7 +93,10 @@ fn changed(
             left_out += 1;
         }
     }
-    let has_base = matches!(material, Material::Plastic { .. });
+    let has_base = matches!(
+        material,
+        Material::Plastic { .. } | Material::Principled(_) | Material::PrincipledThin(_)
+    );
     match left_out {
         0 => None,
         n if n == lobes && !has_base => Some(absorber),

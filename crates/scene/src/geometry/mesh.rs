@@ -7,7 +7,8 @@ use etendue_math::glam::{Vec2, Vec3};
 
 use super::surface::LocalSurface;
 use super::triangle::{Corners, Facet};
-use super::{Aabb, ShapeSample, Transform};
+use super::{Aabb, AttributeOwner, MeshAttribute, ShapeSample, Transform};
+use crate::Color;
 
 /// A triangle mesh whose indices and coordinates have been checked.
 ///
@@ -21,6 +22,7 @@ pub struct TriangleMesh {
     triangles: Vec<[u32; 3]>,
     /// One per triangle, its normal on the front side.
     facets: Vec<Facet>,
+    attributes: Vec<MeshAttribute>,
     flipped: bool,
 }
 
@@ -55,6 +57,20 @@ pub enum MeshError {
         /// How many vertices there are.
         vertices: usize,
     },
+    /// An attribute has more or fewer values than the mesh has vertices or triangles.
+    #[error("an attribute has {found} values for {expected} vertices or triangles")]
+    AttributeLength {
+        /// How many there are.
+        found: usize,
+        /// How many there should be.
+        expected: usize,
+    },
+    /// A value of an attribute is NaN, infinite or negative.
+    #[error("value {index} of an attribute is negative or not finite")]
+    AttributeValue {
+        /// Which, counted from 0.
+        index: usize,
+    },
 }
 
 impl TriangleMesh {
@@ -87,8 +103,9 @@ impl TriangleMesh {
                 return Err(MeshError::IndexOutOfRange { triangle, vertex, vertices });
             }
         }
+        let (facets, attributes) = (Vec::new(), Vec::new());
         let mut mesh =
-            Self { positions, normals, uvs, triangles, facets: Vec::new(), flipped: false };
+            Self { positions, normals, uvs, triangles, facets, attributes, flipped: false };
         mesh.compute_facets();
         Ok(mesh)
     }
@@ -118,9 +135,56 @@ impl TriangleMesh {
     /// # Errors
     /// As [`new`](Self::new).
     pub fn with_normals(self, normals: Vec<Vec3>) -> Result<Self, MeshError> {
-        let flipped = self.flipped;
+        let Self { flipped, attributes, .. } = self;
         let mesh = Self::new(self.positions, normals, self.uvs, self.triangles)?;
+        let mesh = Self { attributes, ..mesh };
         Ok(if flipped { mesh.flipped() } else { mesh })
+    }
+
+    /// The same mesh with one more attribute.
+    ///
+    /// # Errors
+    /// Another number of values than of vertices or triangles, a value that is NaN, infinite or negative.
+    pub fn with_attribute(mut self, attribute: MeshAttribute) -> Result<Self, MeshError> {
+        let expected = match attribute.owner {
+            AttributeOwner::Vertex => self.positions.len(),
+            AttributeOwner::Face => self.triangles.len(),
+        };
+        let found = attribute.values.len();
+        if found != expected {
+            return Err(MeshError::AttributeLength { found, expected });
+        }
+        let valid = |color: &Color| color.to_array().iter().all(|c| *c >= 0.0 && c.is_finite());
+        if let Some(index) = attribute.values.iter().position(|color| !valid(color)) {
+            return Err(MeshError::AttributeValue { index });
+        }
+        self.attributes.push(attribute);
+        Ok(self)
+    }
+
+    /// The same mesh with some of its attributes.
+    pub fn keep_attributes(mut self, keep: impl FnMut(&MeshAttribute) -> bool) -> Self {
+        self.attributes.retain(keep);
+        self
+    }
+
+    /// What the mesh knows of its surface beyond positions, normals and texture coordinates.
+    pub fn attributes(&self) -> &[MeshAttribute] {
+        &self.attributes
+    }
+
+    /// The attribute of a name at the point of a triangle with the barycentric weights `b₁, b₂`.
+    pub(crate) fn attribute(&self, name: &str, triangle: u32, [b1, b2]: [f32; 2]) -> Option<Color> {
+        let attribute = self.attributes.iter().find(|attribute| attribute.name == name)?;
+        match attribute.owner {
+            AttributeOwner::Vertex => {
+                let [a, b, c] = self.corner_values(&attribute.values, triangle)?;
+                // Just outside a triangle, by rounding, a weight may be negative.
+                let color = a * (1.0 - b1 - b2) + b * b1 + c * b2;
+                Some(color.to_array().map(|x| x.max(0.0)).into())
+            }
+            AttributeOwner::Face => attribute.values.get(triangle as usize).copied(),
+        }
     }
 
     /// The same mesh with front and back exchanged.
@@ -273,8 +337,9 @@ impl TriangleMesh {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::ShapeId;
+    use crate::geometry::{Hit, ShapeId};
     use alloc::vec;
+    use etendue_math::Spectrum;
 
     #[test]
     fn bad_indices_and_coordinates_are_refused() {
@@ -332,7 +397,40 @@ mod tests {
         // All three vertices at one place of the texture: any tangent will do.
         let p = one(vec![], vec![Vec2::ONE; 3]).surface(0, [0.5, 0.25]);
         assert_eq!(p.tangent, None);
-        let p = p.on(ShapeId(0));
+        let hit =
+            Hit { t: 1.0, uv: [0.5, 0.25], shape: ShapeId(0), primitive: 0, instance: u32::MAX };
+        let p = p.of(&hit);
         assert!(p.shading.s.is_finite() && p.shading.s.dot(p.normal) == 0.0);
+    }
+
+    #[test]
+    fn attributes_are_linear_between_vertices_and_constant_on_faces() {
+        let grey = |x: f32| Color::splat(x);
+        let attribute = |owner, values: &[f32]| MeshAttribute {
+            name: "it".into(),
+            owner,
+            values: values.iter().map(|&x| grey(x)).collect(),
+        };
+        let with = |owner, values: &[f32]| {
+            one(vec![Vec3::Z; 3], vec![]).with_attribute(attribute(owner, values))
+        };
+        let vertices = with(AttributeOwner::Vertex, &[1.0, 2.0, 4.0]).expect("three values");
+        assert_eq!(vertices.attribute("it", 0, [0.25, 0.5]), Some(grey(2.75)));
+        assert_eq!(vertices.attribute("else", 0, [0.25, 0.5]), None);
+        // They stay when the mesh is moved, turned inside out or gets other normals.
+        let moved = vertices.flipped().transformed(&Transform::IDENTITY);
+        let bare = moved.and_then(|mesh| mesh.with_normals(vec![])).expect("a valid mesh");
+        assert_eq!(bare.attribute("it", 0, [0.0, 1.0]), Some(grey(4.0)));
+        let face = with(AttributeOwner::Face, &[0.5]).expect("one value");
+        assert_eq!(face.attribute("it", 0, [0.25, 0.5]), Some(grey(0.5)));
+        let refused = |owner, values: &[f32]| with(owner, values).err();
+        assert_eq!(
+            refused(AttributeOwner::Face, &[1.0, 2.0]),
+            Some(MeshError::AttributeLength { found: 2, expected: 1 })
+        );
+        assert_eq!(
+            refused(AttributeOwner::Vertex, &[1.0, -1.0, 0.0]),
+            Some(MeshError::AttributeValue { index: 1 })
+        );
     }
 }

@@ -8,11 +8,13 @@
 //! bound on the error of the computed point ([`offset_point`]).
 
 mod aabb;
+mod attribute;
 mod builder;
 mod bvh;
 mod cube;
 mod cylinder;
 mod disk;
+mod located;
 mod mesh;
 mod offset;
 mod ray;
@@ -31,9 +33,11 @@ mod triangle;
 mod tests;
 
 pub use aabb::Aabb;
+pub use attribute::{AttributeOwner, MeshAttribute};
 pub use builder::{GeometryBuilder, GroupId};
 pub use cylinder::Cylinder;
 pub use disk::Disk;
+pub use located::Located;
 pub use mesh::{MeshError, TriangleMesh};
 pub use offset::offset_point;
 pub use ray::Ray;

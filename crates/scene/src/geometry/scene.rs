@@ -190,13 +190,11 @@ impl Geometry {
     pub fn surface_point(&self, ray: &Ray, hit: &Hit) -> SurfacePoint {
         let shape = &self.shapes[hit.shape.0 as usize];
         match (shape, self.instances.get(hit.instance as usize)) {
-            (Shape::Mesh(mesh), None) => mesh.surface(hit.primitive, hit.uv).on(hit.shape),
-            (Shape::Rectangle(rectangle), None) => {
-                rectangle.surface(hit.primitive, hit.uv).on(hit.shape)
-            }
+            (Shape::Mesh(mesh), None) => mesh.surface(hit.primitive, hit.uv).of(hit),
+            (Shape::Rectangle(rectangle), None) => rectangle.surface(hit.primitive, hit.uv).of(hit),
             // Only now made a point, so that those above need not be where this one is returned.
             (shape, instance) => {
-                local_surface(shape, instance, Ray { ..*ray }, Hit { ..*hit }).on(hit.shape)
+                local_surface(shape, instance, Ray { ..*ray }, Hit { ..*hit }).of(hit)
             }
         }
     }

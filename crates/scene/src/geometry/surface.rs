@@ -3,7 +3,7 @@
 use etendue_math::Frame;
 use etendue_math::glam::Vec3;
 
-use super::{Ray, ShapeId, ShapeSample, Transform, offset_point};
+use super::{Hit, Ray, ShapeId, ShapeSample, Transform, offset_point};
 
 /// A point on a surface, with all that shading needs.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,6 +24,8 @@ pub struct SurfacePoint {
     pub shape: ShapeId,
     /// The primitive within the shape, for [`Shape::pdf_from`](super::Shape::pdf_from).
     pub primitive: u32,
+    /// Barycentric weights of the second and third corner of a triangle; 0 on shapes without triangles.
+    pub barycentric: [f32; 2],
 }
 
 /// What a shape knows of a point on it, in its own space.
@@ -54,7 +56,7 @@ impl LocalSurface {
     }
 
     #[inline(always)]
-    pub(crate) fn on(self, shape: ShapeId) -> SurfacePoint {
+    pub(crate) fn of(self, hit: &Hit) -> SurfacePoint {
         let shading = match self.tangent {
             Some(tangent) => Frame::from_normal_and_tangent(self.shading_normal, tangent),
             None => Frame::from_normal(self.shading_normal),
@@ -65,8 +67,9 @@ impl LocalSurface {
             normal: self.normal,
             shading,
             uv: self.uv,
-            shape,
+            shape: hit.shape,
             primitive: self.primitive,
+            barycentric: hit.uv,
         }
     }
 }

@@ -2,24 +2,28 @@
 //!
 //! Vertices have `x y z`, and may have `nx ny nz` and texture coordinates (`u v`, `s t`,
 //! `texture_u texture_v` or `texture_s texture_t`); faces have a list `vertex_indices` or
-//! `vertex_index`. Properties may come in any order and type. Other properties and elements, colours
-//! and face texture coordinates among them, are read over.
+//! `vertex_index`. Properties may come in any order and type. Numbers and colours of vertices and faces
+//! become attributes of the mesh; other properties and elements, face texture coordinates among them,
+//! are read over.
 //!
 //! A parser of its own: errors name the line or the byte, counts are checked against the file before
 //! anything is allocated, and no text is built in between.
 
+mod attributes;
 mod body;
 mod header;
 
 use alloc::format;
+use alloc::vec;
 use alloc::vec::Vec;
 use std::path::Path;
 
 use etendue_math::glam::{Vec2, Vec3};
 
 use crate::error::{Location, SceneError, Warning};
-use crate::geometry::TriangleMesh;
+use crate::geometry::{AttributeOwner, TriangleMesh};
 
+use self::attributes::Attributes;
 use self::body::{Ascii, Binary, Body};
 use self::header::{Element, Format, Kind};
 use super::file::read_asset;
@@ -73,6 +77,7 @@ fn read(
     let mut warnings = Vec::new();
     let mut vertices = Vertices::default();
     let mut triangles = Vec::new();
+    let mut attributes = Vec::new();
     let declared = elements.iter().find(|e| e.name == "vertex").map_or(0, |e| e.count);
     for element in elements {
         if element.count > body.most_records(element) {
@@ -81,9 +86,16 @@ fn read(
             return Err(SceneError::scene(Location::line(path, element.line), message));
         }
         match element.name.as_str() {
-            "vertex" => vertices = read_vertices(&mut body, element, path, tex_coords)?,
+            "vertex" => {
+                let mut own = Attributes::of(element, AttributeOwner::Vertex);
+                vertices = read_vertices(&mut body, element, path, tex_coords, &mut own)?;
+                attributes.push(own);
+            }
             "face" if element.count > 0 => {
-                let small = read_faces(&mut body, element, declared, path, &mut triangles)?;
+                let mut own = Attributes::of(element, AttributeOwner::Face);
+                let faces = Faces { triangles: &mut triangles, attributes: &mut own };
+                let small = read_faces(&mut body, element, declared, path, faces)?;
+                attributes.push(own);
                 if small > 0 {
                     let message = format!("{small} faces of fewer than three vertices are ignored");
                     warnings.push(Warning::new(here(), message));
@@ -95,8 +107,16 @@ fn read(
     if triangles.is_empty() {
         warnings.push(Warning::new(here(), "there are no faces"));
     }
-    let mesh = TriangleMesh::new(vertices.positions, vertices.normals, vertices.uvs, triangles)
+    let mut mesh = TriangleMesh::new(vertices.positions, vertices.normals, vertices.uvs, triangles)
         .map_err(mesh_error(path))?;
+    let moved: usize = attributes.iter().map(Attributes::moved).sum();
+    if moved > 0 {
+        let message = format!("{moved} attributes are negative or not finite and count as 0");
+        warnings.push(Warning::new(here(), message));
+    }
+    for attribute in attributes.into_iter().flat_map(Attributes::finish) {
+        mesh = mesh.with_attribute(attribute).map_err(mesh_error(path))?;
+    }
     Ok(MeshFile { name: stem(path), mesh, face_normals: false, warnings })
 }
 
@@ -130,6 +150,7 @@ fn read_vertices(
     element: &Element,
     path: &Path,
     tex_coords: TexCoords,
+    attributes: &mut Attributes,
 ) -> Result<Vertices, SceneError> {
     let mut present = [false; UNUSED + 1];
     let columns: Vec<(Kind, usize)> = element
@@ -161,12 +182,14 @@ fn read_vertices(
         normals: Vec::with_capacity(capacity(has_normals)),
         uvs: Vec::with_capacity(capacity(has_uvs)),
     };
+    let mut record = vec![0.0; columns.len()];
     for index in 0..element.count {
         let mut slots = [0f32; UNUSED + 1];
-        for &(kind, slot) in &columns {
+        for (&(kind, slot), number) in columns.iter().zip(&mut record) {
             match kind {
                 Kind::Scalar(scalar) => {
                     let value = body.value(scalar).ok_or_else(|| body.flaw(element, index))?;
+                    *number = value;
                     slots[slot] = value as f32;
                     if used(slot) && !slots[slot].is_finite() {
                         return Err(body.wrong(element, index, "is not a finite number"));
@@ -183,8 +206,15 @@ fn read_vertices(
         if has_uvs {
             vertices.uvs.push(tex_coords.turn(Vec2::new(u, v)));
         }
+        attributes.push(&record, 1);
     }
     Ok(vertices)
+}
+
+/// Where faces are put.
+struct Faces<'a> {
+    triangles: &'a mut Vec<[u32; 3]>,
+    attributes: &'a mut Attributes,
 }
 
 /// Reads the faces; returns how many have fewer than three corners.
@@ -193,8 +223,9 @@ fn read_faces(
     element: &Element,
     vertices: usize,
     path: &Path,
-    triangles: &mut Vec<[u32; 3]>,
+    faces: Faces<'_>,
 ) -> Result<usize, SceneError> {
+    let Faces { triangles, attributes } = faces;
     let is_indices = |name: &str| name == "vertex_indices" || name == "vertex_index";
     let listed = |p: &header::Property| is_indices(&p.name) && matches!(p.kind, Kind::List { .. });
     if !element.properties.iter().any(listed) {
@@ -203,11 +234,16 @@ fn read_faces(
     }
     let mut small = 0;
     triangles.reserve(element.count);
+    let mut record = vec![0.0; element.properties.len()];
     for index in 0..element.count {
-        for property in &element.properties {
-            let Kind::List { length, item } = property.kind else {
-                skip_property(body, element, index, property.kind)?;
-                continue;
+        let before = triangles.len();
+        for (property, number) in element.properties.iter().zip(&mut record) {
+            let (length, item) = match property.kind {
+                Kind::List { length, item } => (length, item),
+                Kind::Scalar(scalar) => {
+                    *number = body.value(scalar).ok_or_else(|| body.flaw(element, index))?;
+                    continue;
+                }
             };
             if !is_indices(&property.name) {
                 skip_list(body, element, index, property.kind)?;
@@ -232,6 +268,7 @@ fn read_faces(
             }
             small += usize::from(corners < 3);
         }
+        attributes.push(&record, triangles.len() - before);
     }
     Ok(small)
 }

@@ -7,7 +7,10 @@ mod model;
 mod prepare;
 mod prepared;
 mod prepared_materials;
+mod principled;
 
+use alloc::boxed::Box;
+use alloc::collections::BTreeSet;
 use alloc::sync::Arc;
 use alloc::vec::Vec;
 
@@ -16,9 +19,10 @@ use etendue_brdf::{
     TransmittanceTable,
 };
 
-pub use model::Model;
+pub use model::{Model, PrincipledModel, PrincipledThinModel};
 pub use prepared::{PreparedBsdf, Side};
-pub use prepared_materials::PreparedMaterials;
+pub use prepared_materials::{PreparedMaterials, Varying};
+pub use principled::{PrincipledTextures, PrincipledThinTextures};
 
 use crate::texture::TextureId;
 
@@ -85,6 +89,10 @@ pub enum Material {
         /// Whether colours shift by scattering below the interface.
         scattering: InternalScattering,
     },
+    /// Disney's material: diffuse, sheen, clear coat, metal and rough glass in shares.
+    Principled(Box<PrincipledTextures>),
+    /// The same as a sheet without thickness.
+    PrincipledThin(Box<PrincipledThinTextures>),
     /// A surface that is partly not there.
     Mask {
         /// The share of light that meets the surface.
@@ -240,6 +248,18 @@ impl Materials {
         }
     }
 
+    /// Materials and those that they are made of.
+    pub fn with_parts(&self, ids: impl IntoIterator<Item = MaterialId>) -> BTreeSet<MaterialId> {
+        let mut all = BTreeSet::new();
+        let mut rest: Vec<MaterialId> = ids.into_iter().collect();
+        while let Some(id) = rest.pop() {
+            if all.insert(id) {
+                rest.extend(self.get(id).into_iter().flat_map(Material::nested));
+            }
+        }
+        all
+    }
+
     /// A material, or `None` for an unknown `id`.
     #[inline]
     pub fn get(&self, id: MaterialId) -> Option<&Material> {
@@ -250,42 +270,38 @@ impl Materials {
 impl Material {
     /// The textures that it names itself.
     pub fn textures(&self) -> impl Iterator<Item = TextureId> + use<> {
-        let widths = |roughness: &Option<Roughness>| match *roughness {
-            Some(Roughness { alpha_u, alpha_v, .. }) => [Some(alpha_u), Some(alpha_v)],
-            None => [None; 2],
+        let widths = |roughness: Option<Roughness>| {
+            roughness.into_iter().flat_map(|r| [r.alpha_u, r.alpha_v])
         };
         let textures = match *self {
-            Self::Diffuse { reflectance } => [Some(reflectance), None, None, None, None],
-            Self::RoughDiffuse { reflectance, sigma, .. } => {
-                [Some(reflectance), Some(sigma), None, None, None]
-            }
+            Self::Diffuse { reflectance } => Vec::from([reflectance]),
+            Self::RoughDiffuse { reflectance, sigma, .. } => Vec::from([reflectance, sigma]),
             Self::Dielectric {
-                ref roughness,
-                specular_reflectance,
-                specular_transmittance,
-                ..
+                roughness, specular_reflectance, specular_transmittance, ..
             } => {
-                let [u, v] = widths(roughness);
-                [Some(specular_reflectance), Some(specular_transmittance), u, v, None]
+                let factors = [specular_reflectance, specular_transmittance];
+                factors.into_iter().chain(widths(roughness)).collect()
             }
             Self::ThinDielectric { specular_reflectance, specular_transmittance, .. } => {
-                [Some(specular_reflectance), Some(specular_transmittance), None, None, None]
+                Vec::from([specular_reflectance, specular_transmittance])
             }
-            Self::Conductor { index, ref roughness, specular_reflectance } => {
-                let [u, v] = widths(roughness);
-                let [eta, k] = match index {
-                    ConductorIndex::Mirror => [None; 2],
-                    ConductorIndex::Complex { eta, k } => [Some(eta), Some(k)],
+            Self::Conductor { index, roughness, specular_reflectance } => {
+                let index = match index {
+                    ConductorIndex::Mirror => None,
+                    ConductorIndex::Complex { eta, k } => Some([eta, k]),
                 };
-                [Some(specular_reflectance), u, v, eta, k]
+                let index = index.into_iter().flatten();
+                [specular_reflectance].into_iter().chain(widths(roughness)).chain(index).collect()
             }
             Self::Plastic { diffuse_reflectance, specular_reflectance, .. } => {
-                [Some(diffuse_reflectance), Some(specular_reflectance), None, None, None]
+                Vec::from([diffuse_reflectance, specular_reflectance])
             }
-            Self::Mask { opacity, .. } => [Some(opacity), None, None, None, None],
-            Self::TwoSided { .. } | Self::Null => [None; 5],
+            Self::Principled(ref textures) => textures.textures(),
+            Self::PrincipledThin(ref textures) => textures.textures(),
+            Self::Mask { opacity, .. } => Vec::from([opacity]),
+            Self::TwoSided { .. } | Self::Null => Vec::new(),
         };
-        textures.into_iter().flatten()
+        textures.into_iter()
     }
 
     /// The materials that it is made of.
@@ -305,8 +321,10 @@ impl Material {
             | Self::RoughDiffuse { .. }
             | Self::Conductor { .. }
             | Self::Plastic { .. } => true,
+            Self::Principled(textures) => textures.spec_trans.is_none(),
             Self::Dielectric { .. }
             | Self::ThinDielectric { .. }
+            | Self::PrincipledThin(_)
             | Self::Mask { .. }
             | Self::TwoSided { .. }
             | Self::Null => false,

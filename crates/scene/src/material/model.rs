@@ -1,7 +1,8 @@
 //! One reflection model, whichever it is.
 
 use etendue_brdf::{
-    Bsdf, Lambert, Lobes, Null, OrenNayar, OrenNayarQualitative, Plastic, RoughConductor,
+    Bsdf, Lambert, Lobes, Null, OrenNayar, OrenNayarQualitative, Plastic, Principled,
+    PrincipledParameters, PrincipledThin, PrincipledThinParameters, RoughConductor,
     RoughDielectric, RoughPlastic, Sample, SmoothConductor, SmoothDielectric, ThinDielectric,
 };
 use etendue_math::glam::Vec3;
@@ -33,9 +34,56 @@ pub enum Model<'a> {
     Plastic(Plastic<Color>),
     /// A diffuse base under a rough interface.
     RoughPlastic(RoughPlastic<'a, Color>),
+    /// Disney's material.
+    Principled(PrincipledModel),
+    /// Disney's sheet.
+    PrincipledThin(PrincipledThinModel),
     /// Nothing.
     Null(Null<Color>),
 }
+
+/// [`Principled`] as its parameters.
+///
+/// The lobes take twice the memory of any other model. They are put together in each call, so that what the others
+/// are moved and stored as stays small.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PrincipledModel(pub PrincipledParameters<Color>);
+
+/// [`PrincipledThin`] as its parameters, like [`PrincipledModel`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PrincipledThinModel(pub PrincipledThinParameters<Color>);
+
+/// Implements [`Bsdf`] for the parameters of a model by making the model.
+macro_rules! made_in_each_call {
+    ($parameters:ident: $model:ident) => {
+        impl Bsdf for $parameters {
+            type Color = Color;
+
+            #[inline]
+            fn lobes(&self) -> Lobes {
+                $model::clamped(self.0).lobes()
+            }
+
+            #[inline]
+            fn eval_pdf(&self, wo: Vec3, wi: Vec3) -> (Color, f32) {
+                $model::clamped(self.0).eval_pdf(wo, wi)
+            }
+
+            #[inline]
+            fn sample(&self, wo: Vec3, u_lobe: f32, u: [f32; 2]) -> Option<Sample<Color>> {
+                $model::clamped(self.0).sample(wo, u_lobe, u)
+            }
+
+            #[inline]
+            fn albedo(&self, wo: Vec3) -> Option<Color> {
+                $model::clamped(self.0).albedo(wo)
+            }
+        }
+    };
+}
+
+made_in_each_call!(PrincipledModel: Principled);
+made_in_each_call!(PrincipledThinModel: PrincipledThin);
 
 impl Model<'_> {
     /// Whether sampling chooses among several lobes.
@@ -52,7 +100,9 @@ impl Model<'_> {
             | Self::RoughDielectric(_)
             | Self::ThinDielectric(_)
             | Self::Plastic(_)
-            | Self::RoughPlastic(_) => true,
+            | Self::RoughPlastic(_)
+            | Self::Principled(_)
+            | Self::PrincipledThin(_) => true,
         }
     }
 }
@@ -147,5 +197,18 @@ forward_bsdf!(
     RoughConductor,
     Plastic,
     RoughPlastic,
+    Principled,
+    PrincipledThin,
     Null
 );
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_model_is_no_larger_than_rough_glass() {
+        // Models are returned and stored by value at every textured surface.
+        assert!(size_of::<Model>() <= size_of::<RoughDielectric<Color>>() + size_of::<u32>());
+    }
+}

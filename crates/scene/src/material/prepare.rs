@@ -6,13 +6,14 @@ use etendue_brdf::{
     SmoothDielectric, ThinDielectric,
 };
 
+use super::model::{PrincipledModel, PrincipledThinModel};
 use super::prepared::Placed;
 use super::{
     ConductorIndex, Material, MaterialId, Materials, Model, OrenNayarForm, PlasticSurface,
     PreparedBsdf, Roughness, Side,
 };
 use crate::Color;
-use crate::texture::{TextureId, Textures};
+use crate::texture::{TextureId, TexturePoint, Textures};
 
 /// The narrowest microfacet lobe of a rough material, as in Mitsuba: below, it is sharper than the
 /// directions of a picture can resolve.
@@ -20,20 +21,30 @@ const LEAST_ALPHA: f32 = 1e-4;
 
 /// The textures at one point of a surface.
 #[derive(Clone, Copy)]
-struct At<'a> {
+pub(super) struct At<'a> {
     textures: &'a Textures,
-    uv: [f32; 2],
+    point: TexturePoint<'a>,
 }
 
 impl At<'_> {
     #[inline]
+    pub(super) fn color(self, id: TextureId) -> Color {
+        self.textures.color(id, self.point)
+    }
+
+    #[inline]
+    pub(super) fn value(self, id: TextureId) -> f32 {
+        self.textures.value(id, self.point)
+    }
+
+    #[inline]
     fn reflectance(self, id: TextureId) -> Reflectance<Color> {
-        Reflectance::clamped(self.textures.color(id, self.uv))
+        Reflectance::clamped(self.color(id))
     }
 
     #[inline]
     fn facets(self, roughness: &Roughness) -> Microfacets<f32> {
-        let alpha = |id| Alpha::clamped(self.textures.value(id, self.uv).max(LEAST_ALPHA));
+        let alpha = |id| Alpha::clamped(self.value(id).max(LEAST_ALPHA));
         let (u, v) = (alpha(roughness.alpha_u), alpha(roughness.alpha_v));
         Microfacets::new(roughness.distribution, u, v, roughness.masking)
     }
@@ -42,33 +53,31 @@ impl At<'_> {
     fn complex_ior(self, index: ConductorIndex) -> ComplexIor<Color> {
         match index {
             ConductorIndex::Mirror => ComplexIor::perfect(),
-            ConductorIndex::Complex { eta, k } => ComplexIor::clamped(
-                self.textures.color(eta, self.uv),
-                self.textures.color(k, self.uv),
-            ),
+            ConductorIndex::Complex { eta, k } => {
+                ComplexIor::clamped(self.color(eta), self.color(k))
+            }
         }
     }
 }
 
 impl Materials {
-    /// The reflection model of a material where the texture coordinates are `uv`, looked at from one
-    /// side.
+    /// The reflection model of a material at a point, looked at from one side.
     ///
     /// A material that does not exist is [`Material::Null`].
     #[inline(never)]
-    pub fn prepare(
-        &self,
+    pub fn prepare<'a>(
+        &'a self,
         id: MaterialId,
-        textures: &Textures,
-        uv: [f32; 2],
+        textures: &'a Textures,
+        point: TexturePoint<'a>,
         side: Side,
-    ) -> PreparedBsdf<'_> {
-        let at = At { textures, uv };
+    ) -> PreparedBsdf<'a> {
+        let at = At { textures, point };
         let mut material = self.get(id);
         let mut opacity = 1.0;
         // Masks of masks end: each refers to a material before itself.
         while let Some(&Material::Mask { opacity: texture, nested }) = material {
-            opacity *= textures.value(texture, uv).min(1.0);
+            opacity *= at.value(texture).min(1.0);
             material = self.get(nested);
         }
         let mut placed_on = Side::Front;
@@ -93,7 +102,7 @@ fn model<'a>(material: Option<&'a Material>, at: At) -> Model<'a> {
         }
         Material::RoughDiffuse { reflectance, sigma, form } => {
             let reflectance = at.reflectance(reflectance);
-            let sigma = Sigma::clamped(at.textures.value(sigma, at.uv));
+            let sigma = Sigma::clamped(at.value(sigma));
             match form {
                 OrenNayarForm::Full => Model::OrenNayar(OrenNayar::new(reflectance, sigma)),
                 OrenNayarForm::Qualitative => {
@@ -149,6 +158,10 @@ fn model<'a>(material: Option<&'a Material>, at: At) -> Model<'a> {
                     RoughPlastic::new(table, kd, scattering).with_specular_reflectance(ks),
                 ),
             }
+        }
+        Material::Principled(ref textures) => Model::Principled(PrincipledModel(textures.at(at))),
+        Material::PrincipledThin(ref textures) => {
+            Model::PrincipledThin(PrincipledThinModel(textures.at(at)))
         }
         // A mask or a two-sided material in a place for simple ones: `add` refuses it.
         Material::Mask { .. } | Material::TwoSided { .. } | Material::Null => {

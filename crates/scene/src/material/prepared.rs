@@ -39,7 +39,7 @@ pub struct PreparedBsdf<'a> {
 #[derive(Clone, Copy, Debug)]
 enum Cover<'a> {
     Whole(Placed<'a>),
-    Partial(Mask<Placed<'a>>),
+    Partial(Placed<'a>, Opacity<f32>),
 }
 
 /// A model with its own front on one side of the surface.
@@ -98,15 +98,46 @@ impl Bsdf for Placed<'_> {
     }
 }
 
+/// A reference, for models that hold another: one that holds the model itself would tie what it is prepared from to a single
+/// lifetime.
+impl Bsdf for &Placed<'_> {
+    type Color = Color;
+
+    #[inline]
+    fn lobes(&self) -> Lobes {
+        (**self).lobes()
+    }
+
+    #[inline(always)]
+    fn eval_pdf(&self, wo: Vec3, wi: Vec3) -> (Color, f32) {
+        (**self).eval_pdf(wo, wi)
+    }
+
+    #[inline(always)]
+    fn sample(&self, wo: Vec3, u_lobe: f32, u: [f32; 2]) -> Option<Sample<Color>> {
+        (**self).sample(wo, u_lobe, u)
+    }
+
+    #[inline]
+    fn albedo(&self, wo: Vec3) -> Option<Color> {
+        (**self).albedo(wo)
+    }
+
+    #[inline]
+    fn pass_through(&self, wo: Vec3) -> Color {
+        (**self).pass_through(wo)
+    }
+}
+
 impl<'a> PreparedBsdf<'a> {
     #[inline]
     pub(super) fn new(placed: Placed<'a>, opacity: f32) -> Self {
         if opacity < 1.0 {
-            let masked = Mask::new(placed, Opacity::clamped(opacity));
+            let opacity = Opacity::clamped(opacity);
             return Self {
-                lobes: masked.lobes(),
+                lobes: Mask::new(&placed, opacity).lobes(),
                 chooses_lobe: true,
-                cover: Cover::Partial(masked),
+                cover: Cover::Partial(placed, opacity),
             };
         }
         let chooses_lobe = placed.model.chooses_lobe();
@@ -133,7 +164,7 @@ impl Bsdf for PreparedBsdf<'_> {
     fn eval_pdf(&self, wo: Vec3, wi: Vec3) -> (Color, f32) {
         match &self.cover {
             Cover::Whole(placed) => placed.eval_pdf(wo, wi),
-            Cover::Partial(masked) => eval_pdf_of_partial(masked, wo, wi),
+            Cover::Partial(placed, opacity) => eval_pdf_of_partial(placed, *opacity, wo, wi),
         }
     }
 
@@ -141,7 +172,7 @@ impl Bsdf for PreparedBsdf<'_> {
     fn sample(&self, wo: Vec3, u_lobe: f32, u: [f32; 2]) -> Option<Sample<Color>> {
         Some(match &self.cover {
             Cover::Whole(placed) => placed.sample(wo, u_lobe, u)?,
-            Cover::Partial(masked) => sample_partial(masked, wo, u_lobe, u)?,
+            Cover::Partial(placed, opacity) => sample_partial(placed, *opacity, wo, u_lobe, u)?,
         })
     }
 
@@ -149,7 +180,7 @@ impl Bsdf for PreparedBsdf<'_> {
     fn albedo(&self, wo: Vec3) -> Option<Color> {
         match &self.cover {
             Cover::Whole(placed) => placed.albedo(wo),
-            Cover::Partial(masked) => masked.albedo(wo),
+            Cover::Partial(placed, opacity) => Mask::new(placed, *opacity).albedo(wo),
         }
     }
 
@@ -157,23 +188,24 @@ impl Bsdf for PreparedBsdf<'_> {
     fn pass_through(&self, wo: Vec3) -> Color {
         match &self.cover {
             Cover::Whole(placed) => placed.pass_through(wo),
-            Cover::Partial(masked) => masked.pass_through(wo),
+            Cover::Partial(placed, opacity) => Mask::new(placed, *opacity).pass_through(wo),
         }
     }
 }
 
 /// Out of line, as the longer models are.
 #[inline(never)]
-fn eval_pdf_of_partial(masked: &Mask<Placed>, wo: Vec3, wi: Vec3) -> (Color, f32) {
-    masked.eval_pdf(wo, wi)
+fn eval_pdf_of_partial(placed: &Placed, opacity: Opacity<f32>, wo: Vec3, wi: Vec3) -> (Color, f32) {
+    Mask::new(placed, opacity).eval_pdf(wo, wi)
 }
 
 #[inline(never)]
 fn sample_partial(
-    masked: &Mask<Placed>,
+    placed: &Placed,
+    opacity: Opacity<f32>,
     wo: Vec3,
     u_lobe: f32,
     u: [f32; 2],
 ) -> Option<Sample<Color>> {
-    masked.sample(wo, u_lobe, u)
+    Mask::new(placed, opacity).sample(wo, u_lobe, u)
 }

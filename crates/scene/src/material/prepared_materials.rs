@@ -3,7 +3,8 @@
 use alloc::vec::Vec;
 
 use super::{Material, MaterialId, Materials, PreparedBsdf, Side};
-use crate::texture::Textures;
+use crate::geometry::{Geometry, Located, SurfacePoint};
+use crate::texture::{Texture, Textures};
 
 /// Materials with their textures: those that are the same everywhere are prepared once, the others
 /// where they are asked for.
@@ -13,42 +14,96 @@ use crate::texture::Textures;
 pub struct PreparedMaterials<'a> {
     materials: &'a Materials,
     textures: &'a Textures,
-    /// For each material that is the same everywhere, its models seen from the front and the back.
-    uniform: Vec<Option<[PreparedBsdf<'a>; 2]>>,
+    geometry: &'a Geometry,
+    readiness: Vec<Readiness<'a>>,
+}
+
+/// How much of a material is known beforehand.
+#[derive(Debug)]
+enum Readiness<'a> {
+    /// The same everywhere: its models seen from the front and the back.
+    Uniform([PreparedBsdf<'a>; 2]),
+    /// Depends on texture coordinates.
+    Coordinates,
+    /// Depends on more of the surface.
+    Surface,
+}
+
+/// Where a model is put that had to be made for its place, and what it was made from.
+#[derive(Debug, Default)]
+pub struct Varying<'a> {
+    surface: Option<Located<'a>>,
+    bsdf: Option<PreparedBsdf<'a>>,
 }
 
 impl<'a> PreparedMaterials<'a> {
-    /// Prepares what does not depend on the place.
-    pub fn new(materials: &'a Materials, textures: &'a Textures) -> Self {
+    /// Prepares what does not depend on the place; surfaces will be those of `geometry`.
+    pub fn new(materials: &'a Materials, textures: &'a Textures, geometry: &'a Geometry) -> Self {
+        let anywhere = [0.0; 2].into();
         let prepare = |id| {
-            [Side::Front, Side::Back].map(|side| materials.prepare(id, textures, [0.0; 2], side))
+            [Side::Front, Side::Back].map(|side| materials.prepare(id, textures, anywhere, side))
         };
-        let uniform = (0..)
+        let readiness = (0..)
             .map(MaterialId)
             .zip(materials.iter())
-            .map(|(id, material)| is_uniform(material, materials, textures).then(|| prepare(id)))
+            .map(|(id, material)| {
+                if is_uniform(material, materials, textures) {
+                    Readiness::Uniform(prepare(id))
+                } else if needs_surface(id, materials, textures) {
+                    Readiness::Surface
+                } else {
+                    Readiness::Coordinates
+                }
+            })
             .collect();
-        Self { materials, textures, uniform }
+        Self { materials, textures, geometry, readiness }
     }
 
-    /// The reflection model of a material where the texture coordinates are `uv`, looked at from one
-    /// side.
+    /// The reflection model of a material at a point, looked at from one side.
     ///
     /// * `varying`: where the model is put if it had to be made for this place.
     #[inline(always)]
     pub fn at<'b>(
         &'b self,
         id: MaterialId,
-        uv: [f32; 2],
+        point: &SurfacePoint,
         side: Side,
-        varying: &'b mut Option<PreparedBsdf<'a>>,
-    ) -> &'b PreparedBsdf<'a> {
-        match (self.uniform.get(id.0 as usize), side) {
-            (Some(Some([front, _])), Side::Front) => front,
-            (Some(Some([_, back])), Side::Back) => back,
-            _ => varying.insert(self.materials.prepare(id, self.textures, uv, side)),
+        varying: &'b mut Varying<'b>,
+    ) -> &'b PreparedBsdf<'b> {
+        match (self.readiness.get(id.0 as usize), side) {
+            (Some(Readiness::Uniform([front, _])), Side::Front) => front,
+            (Some(Readiness::Uniform([_, back])), Side::Back) => back,
+            (Some(Readiness::Surface), _) => {
+                // A copy field by field: a reference would keep the point of every path in memory.
+                self.at_surface(id, SurfacePoint { ..*point }, side, varying)
+            }
+            _ => {
+                let bsdf = self.materials.prepare(id, self.textures, point.uv.into(), side);
+                &*varying.bsdf.insert(bsdf)
+            }
         }
     }
+
+    /// The same for a material that depends on more than texture coordinates; out of line.
+    #[inline(never)]
+    fn at_surface<'b>(
+        &'b self,
+        id: MaterialId,
+        point: SurfacePoint,
+        side: Side,
+        varying: &'b mut Varying<'b>,
+    ) -> &'b PreparedBsdf<'b> {
+        let surface = &*varying.surface.insert(Located::new(self.geometry, point));
+        varying.bsdf.insert(self.materials.prepare(id, self.textures, surface.into(), side))
+    }
+}
+
+/// Whether a material, or one that it is made of, depends on more than texture coordinates.
+fn needs_surface(id: MaterialId, materials: &Materials, textures: &Textures) -> bool {
+    let parts = materials.with_parts([id]);
+    let parts = parts.into_iter().filter_map(|part| materials.get(part));
+    let used = textures.with_parts(parts.flat_map(Material::textures));
+    used.into_iter().any(|id| matches!(textures.get(id), Some(Texture::Attribute(_))))
 }
 
 /// Whether all textures of a material, and of those that it is made of, are constant.
@@ -62,10 +117,23 @@ fn is_uniform(material: &Material, materials: &Materials, textures: &Textures) -
 mod tests {
     use super::*;
     use crate::Color;
-    use crate::texture::{Checkerboard, Texture, UvTransform};
+    use crate::geometry::{GeometryBuilder, Ray, Rectangle, Shape, Transform};
+    use crate::texture::{AttributeTexture, Checkerboard, UvTransform};
     use etendue_brdf::Bsdf;
     use etendue_math::Spectrum;
     use etendue_math::glam::Vec3;
+
+    /// One square, and a point of it.
+    fn square() -> (Geometry, SurfacePoint) {
+        let mut builder = GeometryBuilder::new();
+        builder
+            .add_shape(Shape::Rectangle(Rectangle::new(&Transform::IDENTITY).expect("a square")));
+        let geometry = builder.build();
+        let ray = Ray::new(Vec3::Z, -Vec3::Z);
+        let hit = geometry.intersect(&ray).expect("the square is below");
+        let point = geometry.surface_point(&ray, &hit);
+        (geometry, point)
+    }
 
     #[test]
     fn models_are_those_of_the_place_whether_prepared_before_or_not() {
@@ -86,14 +154,16 @@ mod tests {
             add(Material::Mask { opacity: color0, nested: grey }),
             MaterialId(99),
         ];
-        let prepared = PreparedMaterials::new(&materials, &textures);
+        let (geometry, point) = square();
+        let prepared = PreparedMaterials::new(&materials, &textures, &geometry);
         let wi = Vec3::new(0.6, 0.0, 0.8);
         for id in ids {
             for (side, z) in [(Side::Front, 1.0), (Side::Back, -1.0)] {
                 for uv in [[0.1, 0.1], [0.6, 0.1]] {
-                    let mut varying = None;
-                    let model = prepared.at(id, uv, side, &mut varying);
-                    let want = materials.prepare(id, &textures, uv, side);
+                    let mut varying = Varying::default();
+                    let point = SurfacePoint { uv, ..point };
+                    let model = prepared.at(id, &point, side, &mut varying);
+                    let want = materials.prepare(id, &textures, uv.into(), side);
                     let (wo, wi) = (Vec3::Z * z, wi * z);
                     assert_eq!(model.eval(wo, wi), want.eval(wo, wi), "{id:?} {side:?} {uv:?}");
                     assert_eq!(model.lobes(), want.lobes());
@@ -103,18 +173,24 @@ mod tests {
     }
 
     #[test]
-    fn only_what_varies_is_made_on_the_spot() {
+    fn only_what_varies_is_made_on_the_spot_and_only_attributes_need_the_surface() {
+        let (geometry, _) = square();
         let mut textures = Textures::default();
         let white = textures.constant(Color::splat(1.0));
         let board = Checkerboard { color0: white, color1: white, uv: UvTransform::IDENTITY };
         let board = textures.add(Texture::Checkerboard(board));
+        let attribute = AttributeTexture { name: "vertex_color".into(), scale: 1.0 };
+        let color1 = textures.add(Texture::Attribute(attribute));
+        let mixed = Checkerboard { color0: white, color1, uv: UvTransform::IDENTITY };
+        let mixed = textures.add(Texture::Checkerboard(mixed));
         let mut materials = Materials::default();
-        for (reflectance, made) in [(white, false), (board, true)] {
-            let id = materials.add(Material::Diffuse { reflectance }).expect("it refers to none");
-            let prepared = PreparedMaterials::new(&materials, &textures);
-            let mut varying = None;
-            prepared.at(id, [0.0; 2], Side::Front, &mut varying);
-            assert_eq!(varying.is_some(), made);
+        for reflectance in [white, board, mixed] {
+            materials.add(Material::Diffuse { reflectance }).expect("it refers to none");
         }
+        let prepared = PreparedMaterials::new(&materials, &textures, &geometry);
+        assert!(matches!(
+            prepared.readiness[..],
+            [Readiness::Uniform(_), Readiness::Coordinates, Readiness::Surface]
+        ));
     }
 }

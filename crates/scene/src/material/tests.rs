@@ -30,7 +30,7 @@ impl Studio {
 
     /// The model looked at from `wo`.
     fn at(&self, id: MaterialId, wo: Vec3) -> PreparedBsdf<'_> {
-        self.materials.prepare(id, &self.textures, [0.5; 2], Side::of(wo))
+        self.materials.prepare(id, &self.textures, [0.5; 2].into(), Side::of(wo))
     }
 }
 
@@ -82,7 +82,40 @@ fn every_kind(s: &mut Studio) -> Vec<MaterialId> {
         all.push(two_sided);
         all.push(s.add(Material::Mask { opacity: half, nested: two_sided }));
     }
+    let principled = |spec_trans| {
+        Material::Principled(Box::new(PrincipledTextures {
+            base_color: half,
+            roughness: half,
+            anisotropic: tenth,
+            metallic: tenth,
+            spec_trans,
+            eta,
+            spec_tint: half,
+            sheen: half,
+            sheen_tint: tenth,
+            flatness: half,
+            clearcoat: half,
+            clearcoat_gloss: half,
+            sampling_rates: [1.0; 3],
+        }))
+    };
+    let thin = PrincipledThinTextures {
+        base_color: half,
+        roughness: half,
+        anisotropic: tenth,
+        spec_trans: Some(half),
+        eta: white,
+        spec_tint: half,
+        sheen: half,
+        sheen_tint: tenth,
+        flatness: half,
+        diff_trans: half,
+        sampling_rates: [1.0; 4],
+    };
     for material in [
+        principled(None),
+        principled(Some(half)),
+        Material::PrincipledThin(Box::new(thin)),
         dielectric(None),
         dielectric(Some(rough(beckmann))),
         Material::ThinDielectric { eta, specular_reflectance: half, specular_transmittance: white },

@@ -5,7 +5,6 @@ use alloc::vec::Vec;
 use etendue_math::Spectrum;
 
 use crate::Color;
-use etendue_math::Spectrum;
 
 /// Why values do not make a grid.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]

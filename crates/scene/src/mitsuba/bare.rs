@@ -70,6 +70,8 @@ fn read(path: &Path) -> Result<ObjScene, SceneError> {
         return load_obj(path, TexCoords::Flipped);
     }
     let MeshFile { name, mesh, warnings, .. } = load_ply(path, TexCoords::AsWritten)?;
+    // The options know no textures.
+    let mesh = mesh.keep_attributes(|_| false);
     let mesh = ObjMesh { name, material: None, mesh };
     Ok(ObjScene { meshes: Vec::from([mesh]), materials: Vec::new(), warnings })
 }

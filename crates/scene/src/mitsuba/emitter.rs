@@ -15,7 +15,7 @@ use crate::light::{
     SpotLight,
 };
 use crate::load::Encoding;
-use crate::texture::TextureId;
+use crate::texture::{Texture, TextureId};
 use crate::xml::NodeId;
 
 /// The emitters that are no shape.
@@ -51,7 +51,23 @@ fn area<'a>(
     context: &mut Context<'a>,
 ) -> Result<TextureId, SceneError> {
     ignore_weights(reader);
-    texture_or(reader, context, "radiance", Role::Emission, 1.0)
+    let radiance = texture_or(reader, context, "radiance", Role::Emission, 1.0)?;
+    without_attributes(reader, context, "radiance", radiance)
+}
+
+/// The texture of a light, which cannot be one of a mesh's attributes: lights are chosen by their power beforehand.
+fn without_attributes(
+    reader: &PluginReader<'_>,
+    context: &Context<'_>,
+    name: &'static str,
+    texture: TextureId,
+) -> Result<TextureId, SceneError> {
+    let parts = context.textures.with_parts([texture]);
+    if parts.iter().any(|&id| matches!(context.textures.get(id), Some(Texture::Attribute(_)))) {
+        let message = format!("“{name}” cannot be an attribute of a mesh");
+        return Err(reader.error(name, message));
+    }
+    Ok(texture)
 }
 
 fn misplaced<'a>(reader: &mut PluginReader<'a>, _: &mut Context<'a>) -> Result<Light, SceneError> {
@@ -110,7 +126,9 @@ fn point<'a>(
 fn spot<'a>(reader: &mut PluginReader<'a>, context: &mut Context<'a>) -> Result<Light, SceneError> {
     ignore_weights(reader);
     let intensity = color_or(reader, context, "intensity", Role::Emission, 1.0)?;
-    let texture = texture_if_given(reader, context, "texture", Role::Emission)?;
+    let texture = texture_if_given(reader, context, "texture", Role::Emission)?
+        .map(|texture| without_attributes(reader, context, "texture", texture))
+        .transpose()?;
     let cutoff = reader.float("cutoff_angle")?.unwrap_or(20.0);
     let beam_width = reader.float("beam_width")?.unwrap_or(0.75 * cutoff);
     let to_world = reader.transform("to_world")?;

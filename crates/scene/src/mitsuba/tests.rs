@@ -66,6 +66,7 @@ fn every_bsdf_is_translated() {
     });
     is("<bsdf type=\"plastic\"/>", |m| matches!(m, Material::Plastic { .. }));
     is("<bsdf type=\"roughplastic\"/>", |m| matches!(m, Material::Plastic { .. }));
+    is("<bsdf type=\"principledthin\"/>", |m| matches!(m, Material::PrincipledThin(_)));
     is("<bsdf type=\"mask\"><bsdf type=\"diffuse\"/></bsdf>", |m| {
         matches!(m, Material::Mask { .. })
     });
@@ -95,11 +96,61 @@ fn named_conductors_have_mitsubas_indices() {
 }
 
 #[test]
+fn principled_materials_have_an_index_by_either_name_and_transmit_only_on_demand() {
+    let principled = |parameters: &str| {
+        let bsdf = format!("<bsdf type=\"principled\">{parameters}</bsdf>");
+        match material(&bsdf).0 {
+            Material::Principled(textures) => *textures,
+            other => panic!("{other:?}"),
+        }
+    };
+    let plain = principled("");
+    // (1 + √0.04)/(1 − √0.04) = 1.5, to the rounding of f32.
+    assert!((plain.eta.value() - 1.5).abs() < 1e-6 && plain.spec_trans.is_none());
+    let glass = principled(
+        "<float name=\"eta\" value=\"1.3\"/><float name=\"spec_trans\" value=\"0.5\"/>\
+         <float name=\"clearcoat_sampling_rate\" value=\"0.25\"/>",
+    );
+    assert!(glass.eta.value() == 1.3 && glass.spec_trans.is_some());
+    assert_eq!(glass.sampling_rates, [1.0, 1.0, 0.25]);
+    let zero = "<float name=\"specular\" value=\"0\"/>";
+    assert_eq!(principled(zero).eta.value(), 1.0);
+    let through = principled(&format!("{zero}<float name=\"spec_trans\" value=\"1\"/>"));
+    assert!(through.eta.value() > 1.018);
+    let both = "<bsdf type=\"principled\"><float name=\"eta\" value=\"1.3\"/>\n\
+                <float name=\"specular\" value=\"0.5\"/></bsdf>";
+    refused(both, 3, "either “eta” or “specular”");
+    let two_sided = "<bsdf type=\"twosided\"><bsdf type=\"principled\">\
+                     <float name=\"spec_trans\" value=\"1\"/></bsdf></bsdf>";
+    refused(two_sided, 2, "only an opaque material");
+}
+
+#[test]
+fn attributes_are_looked_up_on_the_meshes_that_have_them() {
+    let bsdf = "<bsdf type=\"diffuse\"><texture type=\"mesh_attribute\" name=\"reflectance\">\
+                <string name=\"name\" value=\"vertex_color\"/></texture></bsdf>";
+    refused(
+        &format!("<bsdf type=\"null\"/>\n<shape type=\"sphere\">{bsdf}</shape>"),
+        3,
+        "shape “sphere” has no attribute “vertex_color”",
+    );
+    let lamp = |name| {
+        format!(
+            "<shape type=\"sphere\"><emitter type=\"area\">\n\
+             <texture type=\"mesh_attribute\" name=\"radiance\">\
+             <string name=\"name\" value=\"{name}\"/></texture></emitter></shape>"
+        )
+    };
+    refused(&lamp("vertex_color"), 3, "“radiance” cannot be an attribute of a mesh");
+    refused(&lamp("color"), 3, "begins with neither “vertex_” nor “face_”");
+}
+
+#[test]
 fn unknown_plugins_and_parameters_are_named_with_those_that_exist() {
     refused(
-        "<shape type=\"sphere\">\n<bsdf type=\"principled\"/></shape>",
+        "<shape type=\"sphere\">\n<bsdf type=\"hair\"/></shape>",
         3,
-        "the bsdf “principled” is not supported; supported are conductor, dielectric",
+        "the bsdf “hair” is not supported; supported are conductor, dielectric",
     );
     refused("<bsdf type=\"difuse\"/>", 2, "did you mean “diffuse”?");
     refused(

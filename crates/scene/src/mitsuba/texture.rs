@@ -4,10 +4,12 @@ use super::image::image;
 use super::reader::PluginReader;
 use super::value::{Role, color_or, texture_or};
 use super::{Context, Family};
+use alloc::format;
+
 use crate::SceneError;
 use crate::effect::Element;
 use crate::load::Encoding;
-use crate::texture::{Bitmap, Checkerboard, Filter, Texture, TextureId, Wrap};
+use crate::texture::{AttributeTexture, Bitmap, Checkerboard, Filter, Texture, TextureId, Wrap};
 use crate::xml::NodeId;
 
 /// The textures there are, spectra with a type included.
@@ -15,6 +17,7 @@ const TEXTURES: &Family<TextureId> = &[
     ("bitmap", bitmap),
     ("checkerboard", checkerboard),
     ("d65", d65),
+    ("mesh_attribute", mesh_attribute),
     ("srgb", srgb),
     ("uniform", uniform),
 ];
@@ -67,6 +70,23 @@ fn checkerboard<'a>(
     let color1 = texture_or(reader, context, "color1", Role::Reflectance, 0.2)?;
     let uv = reader.uv_transform("to_uv")?;
     Ok(context.textures.add(Texture::Checkerboard(Checkerboard { color0, color1, uv })))
+}
+
+/// `name`, which begins with `vertex_` or `face_`, and `scale` (1).
+fn mesh_attribute<'a>(
+    reader: &mut PluginReader<'a>,
+    context: &mut Context<'a>,
+) -> Result<TextureId, SceneError> {
+    let Some(name) = reader.string("name")? else {
+        return Err(reader.error("name", "the attribute has no “name”"));
+    };
+    if !["vertex_", "face_"].iter().any(|owner| name.starts_with(owner)) {
+        let message = format!("“{name}” begins with neither “vertex_” nor “face_”");
+        return Err(reader.error("name", message));
+    }
+    let valid = |x| (0.0..=f64::from(f32::MAX)).contains(&x);
+    let scale = reader.float_in("scale", 1.0, "not negative", valid)? as f32;
+    Ok(context.textures.add(Texture::Attribute(AttributeTexture { name: name.into(), scale })))
 }
 
 /// `<spectrum type="uniform">`

@@ -3,7 +3,7 @@
 use super::{SceneParts, SurfaceInfo};
 use crate::geometry::ShapeId;
 use crate::light::{Light, LightError, LightId};
-use crate::texture::{TextureId, Textures};
+use crate::texture::{Texture, TextureId, Textures};
 
 /// Why parts do not make a scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
@@ -31,6 +31,9 @@ pub enum InvalidScene {
     /// A light names a texture that does not exist.
     #[error("light {0} refers to a texture that does not exist")]
     Texture(u32),
+    /// A light looks up an attribute of a mesh.
+    #[error("light {0} refers to an attribute of a mesh")]
+    Attribute(u32),
     /// A light is refused.
     #[error("light {light}: {error}")]
     Light {
@@ -87,7 +90,12 @@ fn check_light(
     textures: &Textures,
 ) -> Result<(), InvalidScene> {
     let refused = |error| InvalidScene::Light { light: id.0, error };
+    let is_attribute =
+        |part: &TextureId| matches!(textures.get(*part), Some(Texture::Attribute(_)));
     let known = |texture: TextureId| match textures.get(texture) {
+        Some(_) if textures.with_parts([texture]).iter().any(is_attribute) => {
+            Err(InvalidScene::Attribute(id.0))
+        }
         Some(_) => Ok(()),
         None => Err(InvalidScene::Texture(id.0)),
     };

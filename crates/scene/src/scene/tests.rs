@@ -10,7 +10,8 @@ use crate::light::{
 };
 use crate::material::Material;
 use crate::texture::{
-    Bitmap, BitmapImage, Checkerboard, Filter, Texture, TextureId, UvTransform, Wrap,
+    AttributeTexture, Bitmap, BitmapImage, Checkerboard, Filter, Texture, TextureId, UvTransform,
+    Wrap,
 };
 use alloc::vec;
 use etendue_brdf::{Bsdf, Density};
@@ -264,6 +265,14 @@ fn parts_that_do_not_fit_are_refused() {
         refused(&|p| p.lights.push(Light::Constant(nan))),
         Some(InvalidScene::Light { light: 0, error: LightError::Emission })
     );
+    let attribute = |p: &mut SceneParts| {
+        let mesh = AttributeTexture { name: "vertex_color".into(), scale: 1.0 };
+        let texture = Some(p.textures.add(Texture::Attribute(mesh)));
+        let white = Color::new(1.0, 1.0, 1.0);
+        let spot = SpotLight::new(Transform::IDENTITY, white, texture, 20.0, 10.0);
+        p.lights.push(Light::Spot(spot.expect("a spot light")));
+    };
+    assert_eq!(refused(&attribute), Some(InvalidScene::Attribute(0)));
     assert_eq!(refused(&|p| p.film.crop.size = [5, 1]), Some(InvalidScene::Crop));
 }
 
@@ -278,7 +287,8 @@ fn a_material_is_looked_up_where_the_surface_is_hit() {
     scene.surfaces[0].material = material.expect("a simple material");
     let point = floor(&scene);
     for (uv, albedo) in [([0.1, 0.1], 0.25), ([0.6, 0.1], 0.75)] {
-        let bsdf = scene.prepare(&SurfacePoint { uv, ..point }, Side::Front);
+        let surface = scene.locate(SurfacePoint { uv, ..point });
+        let bsdf = scene.prepare(&surface, Side::Front);
         assert_eq!(bsdf.albedo(Vec3::Z), Some(Color::new(albedo, albedo, albedo)));
     }
 }

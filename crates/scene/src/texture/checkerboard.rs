@@ -29,6 +29,12 @@ impl Checkerboard {
         let [u, v] = self.uv.apply(uv).map(|x| x - Real::floor(x) > 0.5);
         if u == v { self.color0 } else { self.color1 }
     }
+
+    /// The texture that fills the squares beside it.
+    #[inline]
+    pub fn other_square(&self, uv: [f32; 2]) -> TextureId {
+        Self { color0: self.color1, color1: self.color0, ..*self }.square(uv)
+    }
 }
 
 #[cfg(test)]

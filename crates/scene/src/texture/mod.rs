@@ -4,19 +4,24 @@
 //! a material is a texture as well, a constant one. Every stored value is finite and not negative,
 //! which is what lets the code that uses it be total.
 
+mod attribute;
 mod bitmap;
 mod checkerboard;
 mod image;
+mod point;
 mod uv_transform;
 
+use alloc::collections::BTreeSet;
 use alloc::vec::Vec;
 
 use etendue_math::Spectrum;
 
+pub use attribute::AttributeTexture;
 pub use bitmap::{Bitmap, Filter, Wrap};
 pub use checkerboard::Checkerboard;
 pub(crate) use image::split;
 pub use image::{BitmapError, BitmapImage};
+pub use point::TexturePoint;
 pub use uv_transform::UvTransform;
 
 use crate::Color;
@@ -34,6 +39,8 @@ pub enum Texture {
     Bitmap(Bitmap),
     /// Two textures in the squares of a checkerboard.
     Checkerboard(Checkerboard),
+    /// What a mesh brings along.
+    Attribute(AttributeTexture),
 }
 
 /// All textures of a scene.
@@ -81,6 +88,10 @@ impl Textures {
                 let max = self.max(a).zip(self.max(b), f32::max);
                 (Texture::Checkerboard(board), mean, max)
             }
+            Texture::Attribute(attribute) => {
+                let bound = Color::splat(attribute.scale);
+                (Texture::Attribute(attribute), bound, bound)
+            }
         };
         self.entries.push(Entry { texture, mean, max });
         id
@@ -101,36 +112,63 @@ impl Textures {
         self.add(Texture::Constant(color))
     }
 
-    /// The colour at texture coordinates `uv`: finite, not negative; black for an unknown `id`.
+    /// The colour at a point, which may be texture coordinates alone: finite, not negative; black for an unknown `id`.
     ///
     /// Coordinates that are NaN or infinite give some colour of the texture.
     #[inline(always)]
-    pub fn color(&self, id: TextureId, uv: [f32; 2]) -> Color {
+    pub fn color<'a>(&self, id: TextureId, at: impl Into<TexturePoint<'a>>) -> Color {
         match self.entries.get(id.0 as usize).map(|entry| &entry.texture) {
             Some(&Texture::Constant(color)) => color,
-            Some(texture) => self.varying(texture, id, uv),
+            Some(texture) => self.varying(texture, id, at.into()),
             None => Color::black(),
         }
     }
 
     /// The colour of a texture that is not constant. Out of line, so that constants do not pay for it.
     #[inline(never)]
-    fn varying(&self, texture: &Texture, id: TextureId, uv: [f32; 2]) -> Color {
+    fn varying(&self, texture: &Texture, id: TextureId, at: TexturePoint<'_>) -> Color {
         match texture {
             Texture::Constant(color) => *color,
-            Texture::Bitmap(bitmap) => bitmap.color(uv),
+            Texture::Bitmap(bitmap) => bitmap.color(at.uv),
             Texture::Checkerboard(board) => {
-                let square = board.square(uv);
-                if square < id { self.color(square, uv) } else { Color::black() }
+                let square = board.square(at.uv);
+                if square < id { self.color(square, at) } else { Color::black() }
+            }
+            Texture::Attribute(attribute) => attribute.color(at),
+        }
+    }
+
+    /// The number at a point: the luminance of the colour, exactly `x` for a grey `(x, x, x)`.
+    ///
+    /// Numbers of a [`Checkerboard`] have its colours the other way round, as in Mitsuba 3 (3.9.1).
+    #[inline]
+    pub fn value<'a>(&self, id: TextureId, at: impl Into<TexturePoint<'a>>) -> f32 {
+        let at = at.into();
+        match self.get(id) {
+            Some(Texture::Checkerboard(board)) => {
+                let square = board.other_square(at.uv);
+                if square < id { self.value(square, at) } else { 0.0 }
+            }
+            _ => {
+                let color = self.color(id, at);
+                // The weights of the luminance add up to 1 only after rounding.
+                if color.r == color.g && color.g == color.b { color.r } else { color.luminance() }
             }
         }
     }
 
-    /// The luminance of the colour at `uv`; exactly `x` for a grey `(x, x, x)`.
-    #[inline]
-    pub fn value(&self, id: TextureId, uv: [f32; 2]) -> f32 {
-        let color = self.color(id, uv);
-        if color.r == color.g && color.g == color.b { color.r } else { color.luminance() }
+    /// Textures and those that they are made of.
+    pub fn with_parts(&self, ids: impl IntoIterator<Item = TextureId>) -> BTreeSet<TextureId> {
+        let mut all = BTreeSet::new();
+        let mut rest: Vec<TextureId> = ids.into_iter().collect();
+        while let Some(id) = rest.pop() {
+            if all.insert(id)
+                && let Some(Texture::Checkerboard(board)) = self.get(id)
+            {
+                rest.extend([board.color0, board.color1]);
+            }
+        }
+        all
     }
 
     /// All textures, constants included, in the order of [`TextureId`].
@@ -153,12 +191,13 @@ impl Textures {
         self.entries.is_empty()
     }
 
-    /// The mean over the unit square of the untransformed texture: over the texels of a bitmap.
+    /// The mean over the unit square of the untransformed texture: over the texels of a bitmap. An attribute, of which only
+    /// meshes know more, counts as 1 times its scale.
     pub fn mean(&self, id: TextureId) -> Color {
         self.entries.get(id.0 as usize).map_or(Color::black(), |entry| entry.mean)
     }
 
-    /// An upper bound of each channel.
+    /// An upper bound of each channel; of an attribute one for values up to 1.
     pub fn max(&self, id: TextureId) -> Color {
         self.entries.get(id.0 as usize).map_or(Color::black(), |entry| entry.max)
     }
@@ -190,6 +229,19 @@ mod tests {
         let id = textures.add(Texture::Checkerboard(board));
         assert_eq!(textures.color(id, [0.1, 0.1]), Color::black());
         assert_eq!(textures.color(id, [0.6, 0.1]), Color::black());
+        assert_eq!(textures.value(id, [0.1, 0.1]), 0.0);
+    }
+
+    #[test]
+    fn numbers_of_a_checkerboard_are_the_other_way_round() {
+        let mut textures = Textures::default();
+        let [color0, color1] = [0.25, 0.75].map(|x| textures.constant(Color::splat(x)));
+        let board = Checkerboard { color0, color1, uv: UvTransform::IDENTITY };
+        let id = textures.add(Texture::Checkerboard(board));
+        for (uv, color, value) in [([0.1, 0.1], 0.25, 0.75), ([0.6, 0.1], 0.75, 0.25)] {
+            assert_eq!(textures.color(id, uv), Color::splat(color));
+            assert_eq!(textures.value(id, uv), value);
+        }
     }
 
     #[test]

@@ -11,6 +11,7 @@ use etendue_math::Spectrum;
 use etendue_sampling::Sampler;
 use etendue_scene::Color;
 use etendue_scene::geometry::{Ray, Rays};
+use etendue_scene::material::Varying;
 
 use super::transport::{Transport, Volumes};
 use super::{Fate, PathTracer, Walk};
@@ -69,7 +70,7 @@ impl Transport for Volumes {
                 }
                 Event::Surface(point) => {
                     radiance += walk.throughput * tracer.emitted(&walk, &point);
-                    let mut varying = None;
+                    let mut varying = Varying::default();
                     let vertex = tracer.vertex(depth, &point, walk.ray.direction, &mut varying);
                     let is_last = edges == longest;
                     // Of the last surface matters only what passes it.

@@ -6,7 +6,7 @@ use etendue_math::{Real, Spectrum};
 use etendue_sampling::{Decision, Dimension, Pcg32, Sampler};
 use etendue_scene::Color;
 use etendue_scene::geometry::{Ray, Rays};
-use etendue_scene::material::Side;
+use etendue_scene::material::{Side, Varying};
 use etendue_scene::medium::{Density, Extinction, Medium};
 
 use super::course::{Course, beyond};
@@ -31,7 +31,7 @@ impl<'s, R: Rays> PathTracer<'_, 's, R> {
     #[inline(always)]
     pub(super) fn light_at_surface<S: Sampler>(
         &self,
-        vertex: &Vertex<'_, '_>,
+        vertex: &Vertex<'_>,
         course: &Course<'s>,
         points: &S,
     ) -> Option<Shadowed<'s>> {
@@ -66,8 +66,8 @@ impl<'s, R: Rays> PathTracer<'_, 's, R> {
                 let point = self.scene.geometry.surface_point(&ray, &hit);
                 let wo = point.shading.to_local(-ray.direction.normalize_or_zero());
                 let material = self.scene.surfaces[point.shape.0 as usize].material;
-                let mut varying = None;
-                let bsdf = self.materials.at(material, point.uv, Side::of(wo), &mut varying);
+                let mut varying = Varying::default();
+                let bsdf = self.materials.at(material, &point, Side::of(wo), &mut varying);
                 (point, bsdf.pass_through(wo))
             });
             if let Some((_, passes)) = surface {

@@ -220,3 +220,22 @@ fn files_on_disk_are_read() {
     let file = load_ply(&path, TexCoords::AsWritten).expect("a valid file");
     assert_eq!((file.name.as_str(), file.mesh.triangles().len()), ("quad", 3));
 }
+
+#[test]
+fn properties_of_vertices_and_faces_become_attributes() {
+    let text = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n\
+        property float z\nproperty float red\nproperty float green\nproperty float blue\n\
+        element face 2\nproperty list uchar int vertex_indices\nproperty float w_0\nend_header\n\
+        0 0 0 1 0 0\n1 0 0 0 1 0\n1 1 0 0 0 1\n0 1 0 -1 nan 0.5\n\
+        4 0 1 2 3 0.25\n3 0 1 2 0.75\n";
+    let file = parse(text.as_bytes()).expect("a valid file");
+    let [colors, weights] = file.mesh.attributes() else { panic!("{:?}", file.mesh.attributes()) };
+    assert_eq!((colors.name.as_str(), weights.name.as_str()), ("vertex_color", "face_w"));
+    let rgb = |i: usize| colors.values[i].to_array();
+    assert_eq!([rgb(0), rgb(3)], [[1.0, 0.0, 0.0], [0.0, 0.0, 0.5]]);
+    // The quad is two triangles.
+    assert_eq!(weights.values.iter().map(|c| c.r).collect::<Vec<_>>(), [0.25, 0.25, 0.75]);
+    assert_eq!(file.warnings.len(), 1);
+    let warning = file.warnings[0].to_string();
+    assert!(warning.contains("2 attributes are negative or not finite"), "{warning}");
+}

@@ -5,6 +5,7 @@ mod conductor;
 mod dielectric;
 mod diffuse;
 mod plastic;
+mod principled;
 mod roughness;
 
 use super::{Context, Family};
@@ -21,6 +22,8 @@ const BSDFS: &Family<MaterialId> = &[
     ("mask", adapter::mask),
     ("null", adapter::null),
     ("plastic", plastic::smooth),
+    ("principled", principled::solid),
+    ("principledthin", principled::thin),
     ("roughconductor", conductor::rough),
     ("roughdielectric", dielectric::rough),
     ("roughdiffuse", diffuse::rough),

@@ -2,13 +2,15 @@
 
 use alloc::format;
 use alloc::string::String;
+use alloc::vec::Vec;
 
 use super::super::reader::PluginReader;
 use super::super::{Context, bsdf, emitter, medium};
 use super::{Item, Surface};
 use crate::SceneError;
-use crate::geometry::{Shape, ShapeError};
-use crate::material::Material;
+use crate::geometry::{MeshAttribute, Shape, ShapeError};
+use crate::material::{Material, MaterialId};
+use crate::texture::Texture;
 use crate::xml::Kind;
 
 /// A shape with the bsdf, the emitter and the media inside its plugin, turned inside out on request.
@@ -39,8 +41,45 @@ pub(super) fn surface<'a>(
             context.add_material(Material::Diffuse { reflectance }, location)?
         }
     };
+    let shape = with_attributes_of(material, shape, reader, context)?;
     let name = reader.node().id.clone().unwrap_or(name);
     Ok(Item::Surface(Surface { shape, material, radiance, boundary, name }))
+}
+
+/// The shape with those attributes that its material looks up, and no others.
+fn with_attributes_of(
+    material: MaterialId,
+    shape: Shape,
+    reader: &PluginReader<'_>,
+    context: &Context<'_>,
+) -> Result<Shape, SceneError> {
+    let parts = context.materials.with_parts([material]);
+    let parts = parts.into_iter().filter_map(|part| context.materials.get(part));
+    let used = context.textures.with_parts(parts.flat_map(Material::textures));
+    let names = used.into_iter().filter_map(|id| match context.textures.get(id) {
+        Some(Texture::Attribute(attribute)) => Some(attribute.name.as_str()),
+        _ => None,
+    });
+    let names: Vec<&str> = names.collect();
+    let there: &[MeshAttribute] = match &shape {
+        Shape::Mesh(mesh) => mesh.attributes(),
+        _ => &[],
+    };
+    if let Some(name) = names.iter().find(|name| there.iter().all(|a| a.name != **name)) {
+        let message = format!("{} has no attribute “{name}”", reader.title());
+        let error = SceneError::scene(reader.node().location.clone(), message);
+        let list: Vec<&str> = there.iter().map(|a| a.name.as_str()).collect();
+        return Err(match list[..] {
+            [] => error.help("only PLY files have attributes, and this shape has none"),
+            _ => error.help(format!("it has {}", list.join(", "))),
+        });
+    }
+    Ok(match shape {
+        Shape::Mesh(mesh) => {
+            Shape::Mesh(mesh.keep_attributes(|attribute| names.contains(&attribute.name.as_str())))
+        }
+        shape => shape,
+    })
 }
 
 /// An error about the form of a shape.
