@@ -46,12 +46,15 @@ fn path<'a>(
     })
 }
 
-/// The parameters of `path`; knows media.
+/// The parameters of `path`; knows media. Its `rr_depth` is the last number of edges at which no path is
+/// ended by chance, that of `path` the first at which some are.
 fn volumetric_path<'a>(
     reader: &mut PluginReader<'a>,
     context: &mut Context<'a>,
 ) -> Result<PathSettings, SceneError> {
-    Ok(PathSettings { volumes: true, ..path(reader, context)? })
+    let path = path(reader, context)?;
+    let roulette_depth = path.roulette_depth.saturating_add(1);
+    Ok(PathSettings { volumes: true, roulette_depth, ..path })
 }
 
 /// Direct light: paths of two edges. `hide_emitters` (false), `strict_normals` (false).

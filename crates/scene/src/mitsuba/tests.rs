@@ -501,6 +501,8 @@ fn media_have_mitsubas_defaults_and_are_translated_once() {
     )
     .expect("media");
     let scene = &loaded.scene;
+    // Of `volpath`, whose 5 is the last that ends none.
+    assert!(scene.path.volumes && scene.path.roulette_depth == 6);
     let [fog, cloud] = [0, 1].map(|id| scene.media.get(MediumId(id)).expect("a medium"));
     assert!(scene.media.get(MediumId(2)).is_none());
     assert_eq!(scene.media.around_camera, Some(MediumId(0)));
