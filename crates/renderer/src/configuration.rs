@@ -3,7 +3,7 @@
 use etendue_sampling::{Independent, Sampler, Sobol};
 use etendue_scene::scene::SamplerKind;
 
-use crate::path::{Surfaces, Transport, TransportKind, Volumes};
+use crate::path::{Configuration, Surfaces, Transport, Volumes};
 use crate::render::Renderer;
 
 /// Work whose code depends on the sampler and on what paths go through.
@@ -17,15 +17,15 @@ pub(crate) trait Configured {
 impl Renderer<'_> {
     /// Does a piece of work in the configuration of this render.
     pub(crate) fn configured<C: Configured>(&self, work: C) -> C::Output {
-        match (self.settings.sampler, self.transport) {
-            (SamplerKind::Independent, TransportKind::Surfaces) => {
+        match (self.settings.sampler, self.configuration) {
+            (SamplerKind::Independent, Configuration::Surfaces) => {
                 work.run::<Independent, Surfaces>()
             }
-            (SamplerKind::Independent, TransportKind::Volumes) => {
+            (SamplerKind::Independent, Configuration::Volumes) => {
                 work.run::<Independent, Volumes>()
             }
-            (SamplerKind::Sobol, TransportKind::Surfaces) => work.run::<Sobol, Surfaces>(),
-            (SamplerKind::Sobol, TransportKind::Volumes) => work.run::<Sobol, Volumes>(),
+            (SamplerKind::Sobol, Configuration::Surfaces) => work.run::<Sobol, Surfaces>(),
+            (SamplerKind::Sobol, Configuration::Volumes) => work.run::<Sobol, Volumes>(),
         }
     }
 }

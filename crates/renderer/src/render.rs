@@ -13,7 +13,7 @@ use etendue_scene::{Color, Scene};
 use crate::configuration::Configured;
 use crate::film::{FilterSampler, Image, PixelFilter, PixelSum};
 use crate::light_sampler::LightSampler;
-use crate::path::{PathTracer, Transport, TransportKind};
+use crate::path::{Configuration, PathTracer, Transport};
 use crate::settings::RenderSettings;
 use crate::statistics::{RayCounts, SampleAddress, Statistics};
 use crate::tile::Tile;
@@ -25,7 +25,7 @@ use crate::tile::Tile;
 pub struct Renderer<'a> {
     pub(crate) scene: &'a Scene,
     pub(crate) settings: RenderSettings,
-    pub(crate) transport: TransportKind,
+    pub(crate) configuration: Configuration,
     materials: PreparedMaterials<'a>,
     lights: LightSampler,
     pub(crate) filter: FilterSampler,
@@ -82,8 +82,20 @@ impl<'a> Renderer<'a> {
         let materials = PreparedMaterials::new(&scene.materials, &scene.textures, &scene.geometry);
         let lights = LightSampler::new(scene);
         let filter = FilterSampler::new(&scene.film);
-        let transport = TransportKind::of(scene, &settings);
-        Ok(Self { scene, settings, transport, materials, lights, filter, pool })
+        let configuration = Configuration::of(scene, &settings);
+        Ok(Self { scene, settings, configuration, materials, lights, filter, pool })
+    }
+
+    /// What is rendered with.
+    pub fn configuration(&self) -> Configuration {
+        self.configuration
+    }
+
+    /// The same with everything compiled in that the picture does not depend on: what leaving it out saves.
+    #[must_use]
+    pub fn with_everything(mut self) -> Self {
+        self.configuration = Configuration::largest(self.scene, &self.settings);
+        self
     }
 
     /// Number of threads that render.

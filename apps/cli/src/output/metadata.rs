@@ -17,6 +17,8 @@ pub(crate) struct Metadata {
     pub(crate) seconds: f64,
     /// Samples left out because they were NaN or infinite.
     pub(crate) non_finite: u64,
+    /// What was compiled in.
+    pub(crate) configuration: &'static str,
     /// The relative error of the picture, where it is known.
     pub(crate) error: Option<ImageError>,
 }
@@ -32,6 +34,7 @@ impl Metadata {
             ("etendue.seed", self.seed.to_string()),
             ("etendue.seconds", format!("{:.3}", self.seconds)),
             ("etendue.non_finite", self.non_finite.to_string()),
+            ("etendue.configuration", self.configuration.to_owned()),
         ];
         if let Some(error) = self.error {
             entries.extend([

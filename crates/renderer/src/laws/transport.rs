@@ -11,14 +11,14 @@ use etendue_scene::scene::SamplerKind;
 use etendue_scene::{Color, LoadOptions, Scene, load_scene};
 
 use super::scenes::{Sketch, lamp_over_sphere, settings, sphere};
-use crate::path::TransportKind;
+use crate::path::Configuration;
 use crate::progressive::{Goal, Halt};
 use crate::{RenderSettings, Renderer, Strategy};
 
 /// Renders in both configurations, at once and progressively.
 fn assert_same_bits(scene: &Scene, settings: &RenderSettings) {
-    let mut renderer = Renderer::new(scene, settings.clone()).expect("threads");
-    assert_eq!(renderer.transport, TransportKind::Surfaces);
+    let renderer = Renderer::new(scene, settings.clone()).expect("threads");
+    assert_eq!(renderer.configuration, Configuration::Surfaces);
     let render = |renderer: &Renderer<'_>| {
         let goal = Goal { samples_per_pixel: Some(4), ..Goal::default() };
         let go_on = core::sync::atomic::AtomicBool::new(false);
@@ -26,7 +26,8 @@ fn assert_same_bits(scene: &Scene, settings: &RenderSettings) {
         (whole, renderer.render_progressively(&goal, &|_| (), &|| Halt::No))
     };
     let surfaces = render(&renderer);
-    renderer.transport = TransportKind::Volumes;
+    let renderer = renderer.with_everything();
+    assert_eq!(renderer.configuration, Configuration::Volumes);
     let volumes = render(&renderer);
     assert_eq!(surfaces.0, volumes.0);
     assert_eq!(surfaces.1, volumes.1);
@@ -93,9 +94,9 @@ fn only_media_and_what_light_passes_call_for_the_configuration_of_volumes() {
         });
         sketch.filled(sphere(DVec3::ZERO, 1.0), grey, medium);
     };
-    assert_eq!(kind(true, solid), TransportKind::Surfaces);
+    assert_eq!(kind(true, solid), Configuration::Surfaces);
     for fill in [null, filled] as [fn(&mut Sketch); 2] {
-        assert_eq!(kind(false, fill), TransportKind::Surfaces);
-        assert_eq!(kind(true, fill), TransportKind::Volumes);
+        assert_eq!(kind(false, fill), Configuration::Surfaces);
+        assert_eq!(kind(true, fill), Configuration::Volumes);
     }
 }

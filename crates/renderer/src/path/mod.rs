@@ -23,7 +23,8 @@ use crate::settings::Strategy;
 use crate::statistics::RayCounts;
 
 pub(crate) use first_hit::FirstHit;
-pub(crate) use transport::{Surfaces, Transport, TransportKind, Volumes};
+pub use transport::Configuration;
+pub(crate) use transport::{Surfaces, Transport, Volumes};
 
 /// Solves the rendering equation for one ray at a time.
 ///

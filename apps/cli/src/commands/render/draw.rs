@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use etendue_renderer::progressive::{Advance, Goal, Halt, ImageError, Round};
-use etendue_renderer::{Image, RenderSettings, Renderer, Statistics};
+use etendue_renderer::{Configuration, Image, RenderSettings, Renderer, Statistics};
 use etendue_scene::Scene;
 
 use super::task::{Method, Task};
@@ -18,6 +18,7 @@ pub(super) struct Drawing {
     pub(super) layers: Vec<Channel>,
     pub(super) statistics: Statistics,
     pub(super) whole: Whole,
+    pub(super) configuration: Configuration,
     /// Of a progressive render.
     pub(super) accuracy: Option<Accuracy>,
 }
@@ -75,6 +76,7 @@ fn plain(renderer: &Renderer<'_>, interrupt: &Interrupt, progress: &ProgressDisp
         image: rendering.image,
         layers: Vec::new(),
         statistics: rendering.statistics,
+        configuration: renderer.configuration(),
         whole: if finished { Whole::Yes } else { Whole::BlackInParts },
         accuracy: None,
     }
@@ -107,6 +109,7 @@ fn progressive(
         image: rendering.image,
         layers: Vec::new(),
         statistics: rendering.statistics,
+        configuration: renderer.configuration(),
         whole,
         accuracy: Some(Accuracy { error: rendering.error, rounds: rendering.rounds }),
     };

@@ -57,6 +57,7 @@ impl Report<'_> {
             seed: sampling.seed,
             seconds: self.render_seconds,
             non_finite: self.non_finite(),
+            configuration: self.drawing.configuration.name(),
             error: self.error(),
         }
     }
@@ -95,10 +96,11 @@ impl Report<'_> {
             format!("\netendue: {}{half}", error_in_percent(&error))
         });
         format!(
-            "{} in {:.2} s ({:.2} s to load and build), {} samples, {} rays, {:.1} Mrays/s{memory}{cut}{error}",
+            "{} in {:.2} s ({:.2} s to load and build), configuration {}, {} samples, {} rays, {:.1} Mrays/s{memory}{cut}{error}",
             output.path().display(),
             self.render_seconds,
             self.build_seconds,
+            self.drawing.configuration.name(),
             statistics.samples,
             statistics.rays.total(),
             self.mrays_per_second(),
@@ -109,6 +111,7 @@ impl Report<'_> {
         let statistics = &self.drawing.statistics;
         let factor = self.factor_for_half();
         json!({
+            "configuration": self.drawing.configuration.name(),
             "render_seconds": self.render_seconds,
             "build_seconds": self.build_seconds,
             "samples": statistics.samples,
