@@ -1,4 +1,5 @@
 //! The scenes in `scenes/effects/`: each calls for the effect it is named after, and looks as it did.
+//! Some call for further effects that have no scene of their own.
 
 mod common;
 
@@ -52,11 +53,18 @@ fn names(effects: &[Value], present: bool) -> BTreeSet<&str> {
 
 #[test]
 fn every_effect_has_a_scene_that_calls_for_it() {
-    let vocabulary = effects(&scene("area-light"), &[]);
-    for effect in vocabulary.iter().map(|effect| effect["effect"].as_str().expect("a name")) {
-        let effects = effects(&scene(effect), &[]);
-        assert!(names(&effects, true).contains(effect), "scenes/effects/{effect}.xml");
+    let mut called_for = BTreeSet::new();
+    let mut vocabulary = BTreeSet::new();
+    for &(name, ..) in SCENES {
+        let effects = effects(&scene(name), &[]);
+        let (present, absent) = (names(&effects, true), names(&effects, false));
+        vocabulary = present.union(&absent).map(|&effect| effect.to_owned()).collect();
+        if vocabulary.contains(name) {
+            assert!(present.contains(name), "{name}");
+        }
+        called_for.extend(present.into_iter().map(str::to_owned));
     }
+    assert_eq!(called_for, vocabulary);
 }
 
 #[test]
@@ -89,6 +97,7 @@ fn leaving_out_what_is_absent_changes_no_bit_of_any_scene() {
 #[test]
 fn leaving_out_the_effect_of_a_scene_changes_its_picture() {
     for &(name, ..) in SCENES {
+        assert!(names(&effects(&scene(name), &[]), true).contains(name), "{name} is no effect");
         let (path, folder) = (repository(&scene(name)), Folder::new());
         let options = ["--size", "48x32", "--spp", "8"];
         let whole = folder.render(&path, &options);

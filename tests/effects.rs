@@ -209,7 +209,9 @@ fn the_price_list_has_every_effect_that_is_simulated() {
     let outcome = folder.run(&[&measure[..], &options].concat());
     assert_eq!(outcome.exit, Some(0), "{}", outcome.stderr);
     let prices = outcome.json();
-    let prices = prices.as_array().expect("a list");
+    assert_eq!(prices["configuration"], "surfaces");
+    assert!(prices["unused_percent"].is_number(), "{prices}");
+    let prices = prices["effects"].as_array().expect("a list");
     let listed: BTreeSet<_> = prices.iter().filter_map(|price| price["effect"].as_str()).collect();
     assert_eq!(listed, names(&effects(SEEN), "simulated"));
     for price in prices {

@@ -3,8 +3,8 @@
 
 usage: effect_prices.py DOCUMENT [--etendue target/release/etendue] [--spp 16] [--rounds 5]
 
-Tables of `etendue effects --measure` go between the lines `<!-- begin prices -->` and `<!-- end prices -->`. A scene with one effect
-alone is black without it and is left out.
+Tables of `etendue effects --measure` go between the lines `<!-- begin prices -->` and `<!-- end prices -->`, what the configuration
+of a scene saves between those of `unused`. A scene with one effect alone is black without it and has no prices.
 """
 import argparse
 import glob
@@ -42,20 +42,24 @@ def main():
         "| scene | effect | time it adds | mean without it | ꟻLIP without it |",
         "| --- | --- | ---: | ---: | ---: |",
     ]
+    unused = ["| scene | configuration | time that everything would add |", "| --- | --- | ---: |"]
     scenes = sorted(glob.glob("scenes/*.xml") + glob.glob("scenes/cornell-box/*.xml") + glob.glob("scenes/effects/*.xml"))
     for scene in scenes:
-        listed = prices(options, scene)
+        measured = prices(options, scene)
+        name = scene.removeprefix("scenes/").removesuffix(".xml").removesuffix("/scene")
+        unused.append(f"| {name} | {measured['configuration']} | {measured['unused_percent']:+.1f} % |")
+        listed = measured["effects"]
         if len(listed) > 1:
-            name = scene.removeprefix("scenes/").removesuffix(".xml").removesuffix("/scene")
             lines += [row(name if i == 0 else "", price) for i, price in enumerate(listed)]
 
     with open(options.document, encoding="utf-8") as file:
         text = file.read()
-    begin, end = "<!-- begin prices -->\n", "<!-- end prices -->\n"
-    before, rest = text.split(begin)
-    after = rest.split(end)[1]
+    for part, table in [("prices", lines), ("unused", unused)]:
+        begin, end = f"<!-- begin {part} -->\n", f"<!-- end {part} -->\n"
+        before, rest = text.split(begin)
+        text = f"{before}{begin}\n" + "\n".join(table) + f"\n\n{end}" + rest.split(end)[1]
     with open(options.document, "w", encoding="utf-8") as file:
-        file.write(f"{before}{begin}\n" + "\n".join(lines) + f"\n\n{end}{after}")
+        file.write(text)
 
 
 if __name__ == "__main__":

@@ -9,6 +9,7 @@ use etendue_renderer::image_metrics::{SizeMismatch, compare, difference_picture,
 use etendue_renderer::{Image, RenderSettings, Renderer, ThreadError};
 use etendue_report::{Cell, Table};
 use etendue_scene::{Effect, Scene};
+use serde_json::json;
 
 use super::Arguments;
 use crate::failure::{Exit, Failure};
@@ -33,16 +34,24 @@ pub(super) fn run(
         ("mean_difference_percent", "mean without it (%)"),
         ("flip", "ꟻLIP without it"),
     ]);
+    let rounds = arguments.rounds as usize;
+    let (whole, pairs) = (prepare(scene)?, effects.len() + 1);
+    let report = |pair: usize, done: usize| {
+        display.update(Standing::parts(2 * rounds * pair + done, 2 * rounds * pairs));
+    };
+    let measure = |i: usize, with: &Renderer<'_>, without: &Renderer<'_>| {
+        Pair::measure([with, without], rounds, &interrupt, &|done| report(i, done))
+    };
+    let interrupted = || {
+        display.finish();
+        Ok(interrupt.exit().unwrap_or(Exit::Interrupted))
+    };
+    let configuration = whole.configuration().name();
+    let everything = prepare(scene)?.with_everything();
+    let Some(unused) = measure(0, &everything, &whole) else { return interrupted() };
     for (i, &effect) in effects.iter().enumerate() {
         let without = scene.clone().without(&BTreeSet::from([effect]));
-        let rounds = arguments.rounds as usize;
-        let report = |done: usize| {
-            display.update(Standing::parts(2 * rounds * i + done, 2 * rounds * effects.len()));
-        };
-        let Some(pair) = Pair::measure([scene, &without], rounds, &interrupt, &report)? else {
-            display.finish();
-            return Ok(interrupt.exit().unwrap_or(Exit::Interrupted));
-        };
+        let Some(pair) = measure(i + 1, &whole, &prepare(&without)?) else { return interrupted() };
         table.push(pair.row(effect)?);
         if let Some(output) = pictures.get(i) {
             let [whole, without] = &pair.images;
@@ -53,8 +62,17 @@ pub(super) fn run(
     }
     display.finish();
     if arguments.json {
-        println!("{}", table.json());
+        let document = json!({
+            "configuration": configuration,
+            "unused_percent": unused.percent(),
+            "effects": table.json(),
+        });
+        println!("{document}");
     } else {
+        println!(
+            "configuration {configuration}; with everything compiled in: {:+.1} % of time",
+            unused.percent()
+        );
         print!("{}", table.markdown());
     }
     Ok(Exit::Done)
@@ -80,23 +98,19 @@ struct Pair {
 impl Pair {
     /// Renders both in turn, `rounds` times, telling `report` how many pictures are done; `None` if a signal came.
     fn measure(
-        scenes: [&Scene; 2],
+        [whole, without]: [&Renderer<'_>; 2],
         rounds: usize,
         interrupt: &Interrupt,
         report: &dyn Fn(usize),
-    ) -> Result<Option<Self>, Failure> {
-        let prepare = |scene| Renderer::new(scene, RenderSettings::of_scene(scene));
-        let failure = |error: ThreadError| Failure::new(Exit::Resource, error.to_string());
-        let whole = prepare(scenes[0]).map_err(failure)?;
-        let without = prepare(scenes[1]).map_err(failure)?;
+    ) -> Option<Self> {
         let (mut images, mut ratios, mut least) = (None, Vec::new(), f64::INFINITY);
         for round in 0..rounds {
             report(2 * round);
-            let (image, seconds) = timed(&whole, interrupt);
+            let (image, seconds) = timed(whole, interrupt);
             report(2 * round + 1);
-            let (image_without, seconds_without) = timed(&without, interrupt);
+            let (image_without, seconds_without) = timed(without, interrupt);
             if interrupt.requested() {
-                return Ok(None);
+                return None;
             }
             images = Some([image, image_without]);
             ratios.push(seconds / seconds_without);
@@ -104,7 +118,12 @@ impl Pair {
         }
         ratios.sort_by(f64::total_cmp);
         let ratio = ratios[ratios.len() / 2];
-        Ok(images.map(|images| Self { images, seconds: least, ratio }))
+        images.map(|images| Self { images, seconds: least, ratio })
+    }
+
+    /// Time that the effect adds.
+    fn percent(&self) -> f64 {
+        100.0 * (self.ratio - 1.0)
     }
 
     fn row(&self, effect: Effect) -> Result<[Cell; 5], Failure> {
@@ -114,11 +133,16 @@ impl Pair {
         Ok([
             Cell::text(effect.name()),
             Cell::number(self.seconds),
-            Cell::number(100.0 * (self.ratio - 1.0)),
+            Cell::number(self.percent()),
             Cell::number(100.0 * comparison.mean_difference),
             Cell::number(flip),
         ])
     }
+}
+
+fn prepare(scene: &Scene) -> Result<Renderer<'_>, Failure> {
+    Renderer::new(scene, RenderSettings::of_scene(scene))
+        .map_err(|error: ThreadError| Failure::new(Exit::Resource, error.to_string()))
 }
 
 /// A picture and the seconds that it took.
