@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes cloud.vol: the density of the shipped scene cloud.xml, a puffy cloud by formula.
+"""Writes cloud.vol: the density of the shipped scene heterogeneous-medium.xml, a puffy cloud by formula.
 
 A dozen balls with soft edges on a flat base, roughened by a few sines; 24 × 16 × 24 cells of one channel, between
 0 and 1, in Mitsuba's volume format. Run it in this directory; it needs nothing but Python.
