@@ -132,6 +132,9 @@ fn effects_of_material(material: &Material) -> &'static [Effect] {
         Material::Principled(textures) => principled(textures.spec_trans),
         Material::PrincipledThin(textures) => principled(textures.spec_trans),
         Material::Mask { .. } => &[Effect::OpacityMask],
+        Material::Blend { .. } => &[Effect::Blend],
+        Material::NormalMap { .. } => &[Effect::NormalMap],
+        Material::BumpMap { .. } => &[Effect::BumpMap],
         Material::Null => &[Effect::PassThrough],
     }
 }

@@ -101,8 +101,11 @@ impl<'a> PreparedMaterials<'a> {
 /// Whether a material, or one that it is made of, depends on more than texture coordinates.
 fn needs_surface(id: MaterialId, materials: &Materials, textures: &Textures) -> bool {
     let parts = materials.with_parts([id]);
-    let parts = parts.into_iter().filter_map(|part| materials.get(part));
-    let used = textures.with_parts(parts.flat_map(Material::textures));
+    let parts: Vec<_> = parts.into_iter().filter_map(|part| materials.get(part)).collect();
+    if parts.iter().any(|part| matches!(part, Material::BumpMap { .. })) {
+        return true;
+    }
+    let used = textures.with_parts(parts.into_iter().flat_map(Material::textures));
     used.into_iter().any(|id| matches!(textures.get(id), Some(Texture::Attribute(_))))
 }
 

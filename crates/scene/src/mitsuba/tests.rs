@@ -73,6 +73,18 @@ fn every_bsdf_is_translated() {
         "<bsdf type=\"twosided\"><bsdf type=\"diffuse\"/></bsdf>",
         |m| matches!(m, Material::TwoSided { front, back } if front == back),
     );
+    is(
+        "<bsdf type=\"blendbsdf\"><bsdf type=\"diffuse\"/><bsdf type=\"plastic\"/></bsdf>",
+        |m| matches!(m, Material::Blend { parts: [a, b], .. } if a < b),
+    );
+    is(
+        "<bsdf type=\"normalmap\"><rgb name=\"normalmap\" value=\"0.5 0.5 1\"/>\
+         <boolean name=\"flip_invalid_normals\" value=\"false\"/><bsdf type=\"diffuse\"/></bsdf>",
+        |m| {
+            matches!(m, Material::NormalMap { options, .. }
+                if !options.flip_invalid_normals && options.use_shadowing_function)
+        },
+    );
     is("<bsdf type=\"null\"/>", |m| matches!(m, Material::Null));
 }
 
@@ -122,6 +134,20 @@ fn principled_materials_have_an_index_by_either_name_and_transmit_only_on_demand
     let two_sided = "<bsdf type=\"twosided\"><bsdf type=\"principled\">\
                      <float name=\"spec_trans\" value=\"1\"/></bsdf></bsdf>";
     refused(two_sided, 2, "only an opaque material");
+}
+
+#[test]
+fn materials_around_others_say_what_they_lack() {
+    let bsdf = |plugin: &str, inner: &str| format!("<bsdf type=\"{plugin}\">\n{inner}</bsdf>");
+    let diffuse = "<bsdf type=\"diffuse\"/>";
+    refused(&bsdf("blendbsdf", diffuse), 2, "a blend needs two bsdfs");
+    refused(&bsdf("normalmap", diffuse), 2, "no texture “normalmap”");
+    refused(&bsdf("bumpmap", diffuse), 2, "the bump map has no texture inside");
+    refused(&bsdf("mask", ""), 2, "bsdf “mask” has no bsdf inside");
+    let board = "<texture type=\"checkerboard\" name=\"height\"/>";
+    refused(&bsdf("bumpmap", &format!("{board}{diffuse}")), 3, "must be a bitmap");
+    let glass = bsdf("blendbsdf", &format!("{diffuse}<bsdf type=\"dielectric\"/>"));
+    refused(&bsdf("twosided", &glass), 2, "only an opaque material");
 }
 
 #[test]
