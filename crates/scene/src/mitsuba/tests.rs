@@ -175,7 +175,7 @@ fn unknown_plugins_and_parameters_are_named_with_those_that_exist() {
     refused(
         "<shape type=\"sphere\">\n<bsdf type=\"hair\"/></shape>",
         3,
-        "the bsdf “hair” is not supported; supported are conductor, dielectric",
+        "the bsdf “hair” is not supported; supported are blendbsdf, bumpmap, conductor",
     );
     refused("<bsdf type=\"difuse\"/>", 2, "did you mean “diffuse”?");
     refused(

@@ -185,7 +185,7 @@ mod tests {
 
     #[test]
     fn the_gradient_is_the_difference_of_the_values_beside() {
-        let data: Vec<f32> = (0..12).map(|i: u16| f32::from(i * i % 7) / 7.0).collect();
+        let data: [f32; 12] = core::array::from_fn(|i| (i * i % 7) as f32 / 7.0);
         let image = BitmapImage::from_f32(4, 3, 1, &data).expect("twelve texels");
         let turn = DMat4::from_scale(DVec3::new(2.0, 0.5, 1.0))
             * DMat4::from_rotation_z(0.3)
