@@ -20,6 +20,10 @@ pub struct PreparedMaterials<'a> {
 
 /// How much of a material is known beforehand.
 #[derive(Debug)]
+#[expect(
+    clippy::large_enum_variant,
+    reason = "a scene has few materials, and a look-up at every hit should not follow a pointer"
+)]
 enum Readiness<'a> {
     /// The same everywhere: its models seen from the front and the back.
     Uniform([PreparedBsdf<'a>; 2]),
