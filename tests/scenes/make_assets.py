@@ -143,6 +143,18 @@ def smoke(x, y, z):
     return 0.1 + ((3 * x + 5 * y + 7 * z) % 11) / 11
 
 
+def normals(x, y):
+    """Normals of a pyramid that leans."""
+    dx, dy = x - 3.5, y - 3.5
+    n = (math.copysign(0.5, dx), 0.1, 0.8) if abs(dx) > abs(dy) else (-0.1, math.copysign(0.5, dy), 0.8)
+    length = math.sqrt(sum(c * c for c in n))
+    return tuple(round(255 * (c / length + 1) / 2) for c in n)
+
+
+def bumps(x, y):
+    return (round(127.5 + 127.5 * math.sin(math.pi * (x + 0.5) / 4) * math.cos(math.pi * (y + 1) / 4)),)
+
+
 def octahedron(path):
     """A colour of each vertex and a number of each face."""
     corners = [(0, 0, 1), (1, 0, 0), (0, 1, 0), (-1, 0, 0), (0, -1, 0), (0, 0, -1)]
@@ -170,6 +182,8 @@ def main():
     png(path("card.png"), 8, 4, card)
     png(path("roughness.png"), 4, 4, lambda x, y: (30 + 13 * ((x + 3 * y) % 13),))
     png(path("holes.png"), 8, 8, lambda x, y: (255 if (x * 3 + y * 5) % 7 > 2 else 60 * (y % 3),))
+    png(path("normals.png"), 8, 8, normals)
+    png(path("bumps.png"), 8, 8, bumps)
     exr(path("sky.exr"), 32, 16, sky)
     hdr(path("sky.hdr"), 32, 16, sky)
     obj(path("torus.obj"), has_normals=True)

@@ -83,6 +83,9 @@ fn material_name(material: &Material) -> &'static str {
         Material::Principled(_) => "principled",
         Material::PrincipledThin(_) => "thin principled",
         Material::Mask { .. } => "mask",
+        Material::Blend { .. } => "blend",
+        Material::NormalMap { .. } => "normal map",
+        Material::BumpMap { .. } => "bump map",
         Material::TwoSided { .. } => "two-sided",
         Material::Null => "null",
     }

@@ -56,6 +56,9 @@ pub(super) fn of_lobes(material: &mut Material) -> impl Iterator<Item = (Effect,
         | Material::RoughDiffuse { .. }
         | Material::TwoSided { .. }
         | Material::Mask { .. }
+        | Material::Blend { .. }
+        | Material::NormalMap { .. }
+        | Material::BumpMap { .. }
         | Material::Null => (DELTA, None, None),
     };
     let reflected = reflected.map(|factor| (reflection, factor));
@@ -67,6 +70,9 @@ pub(super) fn of_surface(material: &Material) -> Option<Effect> {
     match material {
         Material::Principled(_) | Material::PrincipledThin(_) => Some(Effect::Principled),
         Material::Mask { .. } => Some(Effect::OpacityMask),
+        Material::Blend { .. } => Some(Effect::Blend),
+        Material::NormalMap { .. } => Some(Effect::NormalMap),
+        Material::BumpMap { .. } => Some(Effect::BumpMap),
         Material::Null => Some(Effect::PassThrough),
         _ => None,
     }

@@ -39,6 +39,12 @@ pub enum Effect {
     Principled,
     /// Surfaces that are partly not there.
     OpacityMask,
+    /// Two materials in shares.
+    Blend,
+    /// Normals from an image.
+    NormalMap,
+    /// Normals of bumps whose height is an image.
+    BumpMap,
     /// Surfaces that light does not notice.
     PassThrough,
     /// Images on surfaces and in lights.
@@ -67,7 +73,7 @@ pub enum Effect {
 
 impl Effect {
     /// The whole vocabulary.
-    pub const ALL: [Self; 25] = [
+    pub const ALL: [Self; 28] = [
         Self::IndirectLight,
         Self::AreaLight,
         Self::PointLight,
@@ -81,6 +87,9 @@ impl Effect {
         Self::RoughTransmission,
         Self::Principled,
         Self::OpacityMask,
+        Self::Blend,
+        Self::NormalMap,
+        Self::BumpMap,
         Self::PassThrough,
         Self::BitmapTexture,
         Self::CheckerboardTexture,
@@ -111,6 +120,9 @@ impl Effect {
             Self::RoughTransmission => "rough-transmission",
             Self::Principled => "principled",
             Self::OpacityMask => "opacity-mask",
+            Self::Blend => "blend",
+            Self::NormalMap => "normal-map",
+            Self::BumpMap => "bump-map",
             Self::PassThrough => "pass-through",
             Self::BitmapTexture => "bitmap-texture",
             Self::CheckerboardTexture => "checkerboard-texture",
@@ -161,6 +173,11 @@ impl Effect {
             }
             Self::OpacityMask => {
                 "a random number per surface met and a vertex of the path where it is not there"
+            }
+            Self::Blend => "a random number, two models made and evaluated each time one would be",
+            Self::NormalMap => "a frame and a model made each time it is evaluated or sampled",
+            Self::BumpMap => {
+                "a copy of the point, derivatives of its position and a slope from four texels, then as a normal map"
             }
             Self::PassThrough => "a vertex of the path",
             Self::BitmapTexture => "four texels and a model of its own per surface met",

@@ -8,7 +8,7 @@ use super::Effect;
 use super::causes::{of_extinction, of_light, of_lobes, of_surface, of_texture};
 use crate::material::{Material, MaterialId};
 use crate::medium::{MediumId, Phase};
-use crate::texture::TextureId;
+use crate::texture::{TextureId, Textures};
 use crate::{Color, Scene};
 
 impl Scene {
@@ -19,6 +19,7 @@ impl Scene {
     /// * light: lights are not there, shapes that emit are dark, paths end at the second edge without indirect light;
     /// * reflection and transmission: the lobe is black, and a surface that has no other one is black altogether;
     /// * principled materials are diffuse; surfaces with opacity masks are whole, those that let light pass are black;
+    ///   of two that are blended the heavier one is there; normals are those of the shape;
     /// * textures: their mean is everywhere;
     /// * media are not there, take as much of every colour, scatter evenly;
     /// * instances are not there, everything is in focus, emitters are seen, normals need not agree.
@@ -34,7 +35,9 @@ impl Scene {
         self.retain_lights(|light| !out(of_light(light)));
         self.textures.average(|texture| of_texture(texture).is_some_and(out));
         let black = self.textures.constant(Color::black());
-        self.materials.change(|material, earlier| changed(material, earlier, &out, black));
+        let textures = &self.textures;
+        self.materials
+            .change(|material, earlier| changed(material, earlier, textures, &out, black));
         self.leave_out_of_media(&out);
         if out(Effect::Instancing) && self.geometry.instance_count() > 0 {
             self.geometry = self.geometry.without_instances();
@@ -68,13 +71,20 @@ impl Scene {
 fn changed(
     material: &Material,
     earlier: &[Material],
+    textures: &Textures,
     out: &impl Fn(Effect) -> bool,
     black: TextureId,
 ) -> Option<Material> {
     let absorber = Material::Diffuse { reflectance: black };
+    let part = |MaterialId(id)| earlier[id as usize].clone();
     if of_surface(material).is_some_and(out) {
         return Some(match *material {
-            Material::Mask { nested: MaterialId(id), .. } => earlier[id as usize].clone(),
+            Material::Mask { nested, .. }
+            | Material::NormalMap { nested, .. }
+            | Material::BumpMap { nested, .. } => part(nested),
+            Material::Blend { weight, parts } => {
+                part(parts[usize::from(textures.mean(weight).luminance() > 0.5)])
+            }
             Material::Principled(ref textures) => {
                 Material::Diffuse { reflectance: textures.base_color }
             }

@@ -1,6 +1,6 @@
 //! Cylinders.
 
-use etendue_math::glam::{DAffine3, DVec3};
+use etendue_math::glam::{DAffine3, DVec3, Vec3};
 use etendue_math::{Frame, Real, Vector3};
 
 use super::sphere::{azimuth, round_point};
@@ -158,6 +158,15 @@ impl Cylinder {
             tangent: Some(around.as_vec3()),
             primitive: 0,
         }
+    }
+
+    /// `∂p/∂u` and `∂p/∂v`.
+    pub(crate) fn partials(&self, [u, _]: [f32; 2]) -> [Vec3; 2] {
+        let Frame { s, t, n } = self.frame;
+        let turn = 2.0 * <f64 as Real>::PI;
+        let (sin, cos) = Real::sin_cos(f64::from(u) * turn);
+        let around = (t * cos - s * sin) * (turn * self.radius);
+        [around.as_vec3(), (n * self.length).as_vec3()]
     }
 
     pub(crate) fn sample_area(&self, u: [f32; 2]) -> ShapeSample {

@@ -83,6 +83,14 @@ impl Disk {
         }
     }
 
+    /// `∂p/∂u` and `∂p/∂v`.
+    pub(crate) fn partials(&self, [u, v]: [f32; 2]) -> [Vec3; 2] {
+        let turn = 2.0 * <f64 as Real>::PI;
+        let (sin, cos) = Real::sin_cos(f64::from(v) * turn);
+        [DVec3::new(cos, sin, 0.0), DVec3::new(-sin, cos, 0.0) * (f64::from(u) * turn)]
+            .map(|d| self.to_world.affine().transform_vector3(d).as_vec3())
+    }
+
     pub(crate) fn sample_area(&self, u: [f32; 2]) -> ShapeSample {
         let [x, y] = disk::from_square(u.map(f64::from));
         let s = self.at(x, y);

@@ -2,8 +2,8 @@
 
 use alloc::vec::Vec;
 
-use etendue_math::Vector3;
 use etendue_math::glam::{Vec2, Vec3};
+use etendue_math::{Frame, Vector3};
 
 use super::surface::LocalSurface;
 use super::triangle::{Corners, Facet};
@@ -307,6 +307,23 @@ impl TriangleMesh {
         let (e1, e2) = (*v1 - *v0, *v2 - *v0);
         let scale = 1.0 / (d1.x * d2.y - d1.y * d2.x);
         Some((e1 * d2.y - e2 * d1.y) * scale).filter(|du| du.is_finite())
+    }
+
+    /// `∂p/∂u` and `∂p/∂v` of a triangle; without texture coordinates, two tangents of unit length.
+    pub(crate) fn partials(&self, triangle: u32) -> [Vec3; 2] {
+        let facet = self.facet(triangle);
+        let [v0, v1, v2] = facet.corners;
+        let (e1, e2) = (v1 - v0, v2 - v0);
+        let of_coordinates = |[t0, t1, t2]: [Vec2; 3]| {
+            let (d1, d2) = (t1 - t0, t2 - t0);
+            let scale = 1.0 / (d1.x * d2.y - d1.y * d2.x);
+            let partials = [(e1 * d2.y - e2 * d1.y) * scale, (e2 * d1.x - e1 * d2.x) * scale];
+            partials.iter().all(|d| d.is_finite()).then_some(partials)
+        };
+        self.corner_values(&self.uvs, triangle).and_then(of_coordinates).unwrap_or_else(|| {
+            let Frame { s, t, .. } = Frame::<f32>::from_normal(facet.normal);
+            [s, t]
+        })
     }
 
     /// What the mesh knows of the three corners; `None` where it knows nothing of the kind.

@@ -56,6 +56,12 @@ impl Rectangle {
         Aabb::from_points(self.corners)
     }
 
+    /// `∂p/∂u` and `∂p/∂v`, the sides.
+    pub(crate) fn partials(&self) -> [Vec3; 2] {
+        let [corner, right, _, top] = self.corners;
+        [right - corner, top - corner]
+    }
+
     #[inline(always)]
     pub(crate) fn surface(&self, half: u32, [b1, b2]: [f32; 2]) -> LocalSurface {
         let (position, error) = self.half(half).point([b1, b2]);

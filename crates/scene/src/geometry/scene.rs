@@ -204,6 +204,11 @@ impl Geometry {
         &self.shapes
     }
 
+    /// Where an instance puts its group; `None` where there is no such instance.
+    pub(super) fn placement(&self, instance: u32) -> Option<&Transform> {
+        self.instances.get(instance as usize).map(|instance| &instance.transform)
+    }
+
     /// How many instances of groups there are.
     pub fn instance_count(&self) -> usize {
         self.instances.len()

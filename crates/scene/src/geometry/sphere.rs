@@ -159,6 +159,16 @@ impl Sphere {
         }
     }
 
+    /// `∂p/∂u` and `∂p/∂v`.
+    pub(crate) fn partials(&self, uv: [f32; 2]) -> [Vec3; 2] {
+        let pi = <f64 as Real>::PI;
+        let (sin_phi, cos_phi) = Real::sin_cos(f64::from(uv[0]) * 2.0 * pi);
+        let (sin, cos) = Real::sin_cos(f64::from(uv[1]) * pi);
+        let du = DVec3::new(-sin_phi, cos_phi, 0.0) * (2.0 * pi * sin);
+        let dv = DVec3::new(cos * cos_phi, cos * sin_phi, -sin) * pi;
+        [du, dv].map(|d| self.to_world.affine().transform_vector3(d).as_vec3())
+    }
+
     /// The point in an outward unit direction from the centre, as a sample.
     pub(crate) fn sample_at(&self, outward: DVec3) -> ShapeSample {
         let s = self.at(outward);

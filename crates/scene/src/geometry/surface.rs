@@ -26,6 +26,8 @@ pub struct SurfacePoint {
     pub primitive: u32,
     /// Barycentric weights of the second and third corner of a triangle; 0 on shapes without triangles.
     pub barycentric: [f32; 2],
+    /// The instance through which the shape is seen, or `u32::MAX` for none.
+    pub instance: u32,
 }
 
 /// What a shape knows of a point on it, in its own space.
@@ -70,6 +72,7 @@ impl LocalSurface {
             shape: hit.shape,
             primitive: self.primitive,
             barycentric: hit.uv,
+            instance: hit.instance,
         }
     }
 }

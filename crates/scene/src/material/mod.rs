@@ -3,7 +3,9 @@
 //! A [`Material`] names textures; [`Materials::prepare`] looks them up at one point and gives the
 //! reflection model there, a [`PreparedBsdf`].
 
+mod composed;
 mod model;
+mod perturbed;
 mod prepare;
 mod prepared;
 mod prepared_materials;
@@ -19,7 +21,9 @@ use etendue_brdf::{
     TransmittanceTable,
 };
 
+pub use composed::Composed;
 pub use model::{Model, PrincipledModel, PrincipledThinModel};
+pub use perturbed::Perturbation;
 pub use prepared::{PreparedBsdf, Side};
 pub use prepared_materials::{PreparedMaterials, Varying};
 pub use principled::{PrincipledTextures, PrincipledThinTextures};
@@ -98,6 +102,33 @@ pub enum Material {
         /// The share of light that meets the surface.
         opacity: TextureId,
         /// What the surface is made of where it is there.
+        nested: MaterialId,
+    },
+    /// Two materials in shares.
+    Blend {
+        /// The share of the second.
+        weight: TextureId,
+        /// The first and the second.
+        parts: [MaterialId; 2],
+    },
+    /// A surface that is shaded as if its normal were another.
+    NormalMap {
+        /// `(n + 1)/2` of the normal in the shading frame, per channel.
+        normal: TextureId,
+        /// What is done where the normals disagree.
+        options: Perturbation,
+        /// What the surface is made of.
+        nested: MaterialId,
+    },
+    /// A surface that is shaded as if it had bumps.
+    BumpMap {
+        /// Height of the bumps: a bitmap, or a constant, which has none.
+        height: TextureId,
+        /// What the height is multiplied by.
+        scale: f32,
+        /// What is done where the normals disagree.
+        options: Perturbation,
+        /// What the surface is made of.
         nested: MaterialId,
     },
     /// One-sided materials, used on both sides.
@@ -182,6 +213,9 @@ pub enum MaterialError {
     /// It refers to a material that was not added before it.
     #[error("there is no material {0} yet")]
     Unknown(u32),
+    /// It puts bumps on what is already seen in another frame.
+    #[error("a bump map cannot be used inside a normal map or a bump map")]
+    NestedBumps,
     /// It puts something that light can pass on one side of a surface.
     #[error("only an opaque material can be used on one side of a surface")]
     TransmissiveSide,
@@ -198,16 +232,29 @@ impl Materials {
     ///
     /// # Errors
     /// A reference to a material that was not added before; a [`Material::TwoSided`] of materials
-    /// that transmit, are masked or are two-sided themselves.
+    /// that transmit, are masked or are two-sided themselves; a [`Material::BumpMap`] inside another or inside a
+    /// [`Material::NormalMap`].
     pub fn add(&mut self, material: Material) -> Result<MaterialId, MaterialError> {
         match material {
             Material::Mask { nested, .. } => {
                 self.get(nested).ok_or(MaterialError::Unknown(nested.0))?;
             }
+            Material::NormalMap { nested, .. } | Material::BumpMap { nested, .. } => {
+                self.get(nested).ok_or(MaterialError::Unknown(nested.0))?;
+                let is_bump = |part| matches!(self.get(part), Some(Material::BumpMap { .. }));
+                if self.with_parts([nested]).into_iter().any(is_bump) {
+                    return Err(MaterialError::NestedBumps);
+                }
+            }
+            Material::Blend { parts, .. } => {
+                for part in parts {
+                    self.get(part).ok_or(MaterialError::Unknown(part.0))?;
+                }
+            }
             Material::TwoSided { front, back } => {
                 for side in [front, back] {
                     let material = self.get(side).ok_or(MaterialError::Unknown(side.0))?;
-                    if !material.is_one_sided() {
+                    if !self.is_one_sided(material) {
                         return Err(MaterialError::TransmissiveSide);
                     }
                 }
@@ -216,6 +263,28 @@ impl Materials {
         }
         self.materials.push(material);
         Ok(MaterialId(self.materials.len() as u32 - 1))
+    }
+
+    /// Whether a material reflects on the front and is black from behind.
+    fn is_one_sided(&self, material: &Material) -> bool {
+        match material {
+            Material::Diffuse { .. }
+            | Material::RoughDiffuse { .. }
+            | Material::Conductor { .. }
+            | Material::Plastic { .. } => true,
+            Material::Principled(textures) => textures.spec_trans.is_none(),
+            // What they are made of was there before them: this ends.
+            Material::Blend { .. } | Material::NormalMap { .. } | Material::BumpMap { .. } => {
+                let part = |id| self.get(id).is_some_and(|part| self.is_one_sided(part));
+                material.nested().all(part)
+            }
+            Material::Dielectric { .. }
+            | Material::ThinDielectric { .. }
+            | Material::PrincipledThin(_)
+            | Material::Mask { .. }
+            | Material::TwoSided { .. }
+            | Material::Null => false,
+        }
     }
 
     /// All materials, in the order of [`MaterialId`].
@@ -299,6 +368,9 @@ impl Material {
             Self::Principled(ref textures) => textures.textures(),
             Self::PrincipledThin(ref textures) => textures.textures(),
             Self::Mask { opacity, .. } => Vec::from([opacity]),
+            Self::Blend { weight, .. } => Vec::from([weight]),
+            Self::NormalMap { normal, .. } => Vec::from([normal]),
+            Self::BumpMap { height, .. } => Vec::from([height]),
             Self::TwoSided { .. } | Self::Null => Vec::new(),
         };
         textures.into_iter()
@@ -307,28 +379,14 @@ impl Material {
     /// The materials that it is made of.
     pub fn nested(&self) -> impl Iterator<Item = MaterialId> + use<> {
         let parts = match *self {
-            Self::Mask { nested, .. } => [Some(nested), None],
+            Self::Mask { nested, .. }
+            | Self::NormalMap { nested, .. }
+            | Self::BumpMap { nested, .. } => [Some(nested), None],
+            Self::Blend { parts: [first, second], .. } => [Some(first), Some(second)],
             Self::TwoSided { front, back } => [Some(front), Some(back)],
             _ => [None; 2],
         };
         parts.into_iter().flatten()
-    }
-
-    /// Reflects on the front and is black from behind.
-    fn is_one_sided(&self) -> bool {
-        match self {
-            Self::Diffuse { .. }
-            | Self::RoughDiffuse { .. }
-            | Self::Conductor { .. }
-            | Self::Plastic { .. } => true,
-            Self::Principled(textures) => textures.spec_trans.is_none(),
-            Self::Dielectric { .. }
-            | Self::ThinDielectric { .. }
-            | Self::PrincipledThin(_)
-            | Self::Mask { .. }
-            | Self::TwoSided { .. }
-            | Self::Null => false,
-        }
     }
 }
 

@@ -7,6 +7,7 @@ use etendue_brdf::{
 };
 use etendue_math::glam::Vec3;
 
+use super::Composed;
 use crate::Color;
 
 /// A reflection model with its parameters at one point.
@@ -38,6 +39,8 @@ pub enum Model<'a> {
     Principled(PrincipledModel),
     /// Disney's sheet.
     PrincipledThin(PrincipledThinModel),
+    /// Made of other materials.
+    Composed(Composed<'a>),
     /// Nothing.
     Null(Null<Color>),
 }
@@ -102,7 +105,8 @@ impl Model<'_> {
             | Self::Plastic(_)
             | Self::RoughPlastic(_)
             | Self::Principled(_)
-            | Self::PrincipledThin(_) => true,
+            | Self::PrincipledThin(_)
+            | Self::Composed(_) => true,
         }
     }
 }
@@ -199,6 +203,7 @@ forward_bsdf!(
     RoughPlastic,
     Principled,
     PrincipledThin,
+    Composed,
     Null
 );
 

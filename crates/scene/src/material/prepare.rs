@@ -1,18 +1,23 @@
 //! From a material to its reflection model at one point.
 
 use etendue_brdf::{
-    Alpha, ComplexIor, Lambert, Microfacets, Null, OrenNayar, OrenNayarQualitative, Plastic,
-    Reflectance, RoughConductor, RoughDielectric, RoughPlastic, Sigma, SmoothConductor,
+    Alpha, ComplexIor, Lambert, Microfacets, Null, Opacity, OrenNayar, OrenNayarQualitative,
+    Plastic, Reflectance, RoughConductor, RoughDielectric, RoughPlastic, Sigma, SmoothConductor,
     SmoothDielectric, ThinDielectric,
 };
 
+use etendue_math::glam::Vec3;
+
+use super::composed::{Composed, Composition, Parts};
 use super::model::{PrincipledModel, PrincipledThinModel};
+use super::perturbed::Perturbed;
 use super::prepared::Placed;
 use super::{
     ConductorIndex, Material, MaterialId, Materials, Model, OrenNayarForm, PlasticSurface,
     PreparedBsdf, Roughness, Side,
 };
 use crate::Color;
+use crate::geometry::SurfacePoint;
 use crate::texture::{TextureId, TexturePoint, Textures};
 
 /// The narrowest microfacet lobe of a rough material, as in Mitsuba: below, it is sharper than the
@@ -22,11 +27,12 @@ const LEAST_ALPHA: f32 = 1e-4;
 /// The textures at one point of a surface.
 #[derive(Clone, Copy)]
 pub(super) struct At<'a> {
+    materials: &'a Materials,
     textures: &'a Textures,
     point: TexturePoint<'a>,
 }
 
-impl At<'_> {
+impl<'a> At<'a> {
     #[inline]
     pub(super) fn color(self, id: TextureId) -> Color {
         self.textures.color(id, self.point)
@@ -35,6 +41,32 @@ impl At<'_> {
     #[inline]
     pub(super) fn value(self, id: TextureId) -> f32 {
         self.textures.value(id, self.point)
+    }
+
+    fn composed(self, how: Composition) -> Model<'a> {
+        let Self { materials, textures, point } = self;
+        Model::Composed(Composed::new(Parts { materials, textures, point }, how))
+    }
+
+    /// The normal, in the shading frame and of any length, of bumps of a height; `+z` where the surface is not known.
+    ///
+    /// ```text
+    /// n ∝ (Pu + n ∂h/∂u) × (Pv + n ∂h/∂v),  Pu, Pv: the parts of ∂p/∂u, ∂p/∂v orthogonal to n
+    /// ```
+    ///
+    /// on the side of the geometric normal.
+    ///
+    /// # Source
+    /// J. Blinn, "Simulation of Wrinkled Surfaces", SIGGRAPH 1978, without the change of the normal; Mitsuba 3's
+    /// `bumpmap`.
+    fn bumped(self, height: TextureId, scale: f32) -> Vec3 {
+        let Some(surface) = self.point.surface else { return Vec3::Z };
+        let SurfacePoint { shading, normal, .. } = *surface.point();
+        let slopes = self.textures.gradient(height, self.point.uv).map(|slope| slope * scale);
+        let [du, dv] = surface.partials();
+        let bumped = |d: Vec3, slope: f32| d + shading.n * (slope - shading.n.dot(d));
+        let n = bumped(du, slopes[0]).cross(bumped(dv, slopes[1]));
+        shading.to_local(if normal.dot(n) < 0.0 { -n } else { n })
     }
 
     #[inline]
@@ -72,7 +104,7 @@ impl Materials {
         point: TexturePoint<'a>,
         side: Side,
     ) -> PreparedBsdf<'a> {
-        let at = At { textures, point };
+        let at = At { materials: self, textures, point };
         let mut material = self.get(id);
         let mut opacity = 1.0;
         // Masks of masks end: each refers to a material before itself.
@@ -94,7 +126,7 @@ impl Materials {
 
 /// The model of a material that is made of no others.
 #[inline]
-fn model<'a>(material: Option<&'a Material>, at: At) -> Model<'a> {
+fn model<'a>(material: Option<&'a Material>, at: At<'a>) -> Model<'a> {
     let Some(material) = material else { return Model::Null(Null::new()) };
     match *material {
         Material::Diffuse { reflectance } => {
@@ -162,6 +194,19 @@ fn model<'a>(material: Option<&'a Material>, at: At) -> Model<'a> {
         Material::Principled(ref textures) => Model::Principled(PrincipledModel(textures.at(at))),
         Material::PrincipledThin(ref textures) => {
             Model::PrincipledThin(PrincipledThinModel(textures.at(at)))
+        }
+        Material::Blend { weight, parts } => {
+            let weight = Opacity::clamped(at.value(weight));
+            at.composed(Composition::Blend { parts, weight })
+        }
+        Material::NormalMap { normal, options, nested } => {
+            let color = at.color(normal);
+            let normal = Vec3::from(color.to_array()) * 2.0 - Vec3::ONE;
+            at.composed(Composition::Perturbed { nested, perturbed: Perturbed { normal, options } })
+        }
+        Material::BumpMap { height, scale, options, nested } => {
+            let normal = at.bumped(height, scale);
+            at.composed(Composition::Perturbed { nested, perturbed: Perturbed { normal, options } })
         }
         // A mask or a two-sided material in a place for simple ones: `add` refuses it.
         Material::Mask { .. } | Material::TwoSided { .. } | Material::Null => {

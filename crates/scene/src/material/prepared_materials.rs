@@ -20,6 +20,10 @@ pub struct PreparedMaterials<'a> {
 
 /// How much of a material is known beforehand.
 #[derive(Debug)]
+#[expect(
+    clippy::large_enum_variant,
+    reason = "a scene has few materials, and a look-up at every hit should not follow a pointer"
+)]
 enum Readiness<'a> {
     /// The same everywhere: its models seen from the front and the back.
     Uniform([PreparedBsdf<'a>; 2]),
@@ -101,8 +105,11 @@ impl<'a> PreparedMaterials<'a> {
 /// Whether a material, or one that it is made of, depends on more than texture coordinates.
 fn needs_surface(id: MaterialId, materials: &Materials, textures: &Textures) -> bool {
     let parts = materials.with_parts([id]);
-    let parts = parts.into_iter().filter_map(|part| materials.get(part));
-    let used = textures.with_parts(parts.flat_map(Material::textures));
+    let parts: Vec<_> = parts.into_iter().filter_map(|part| materials.get(part)).collect();
+    if parts.iter().any(|part| matches!(part, Material::BumpMap { .. })) {
+        return true;
+    }
+    let used = textures.with_parts(parts.into_iter().flat_map(Material::textures));
     used.into_iter().any(|id| matches!(textures.get(id), Some(Texture::Attribute(_))))
 }
 

@@ -123,6 +123,22 @@ fn every_kind(s: &mut Studio) -> Vec<MaterialId> {
     ] {
         all.push(s.add(material));
     }
+    let (quarter, glossy, glass) = (s.grey(0.25), all[7], all[all.len() - 4]);
+    let normal = s.textures.constant(Color::new(0.7, 0.4, 0.9));
+    for nested in [all[0], glossy, glass] {
+        let blend = s.add(Material::Blend { weight: quarter, parts: [nested, all[1]] });
+        let options = Perturbation::default();
+        all.push(blend);
+        all.push(s.add(Material::NormalMap { normal, options, nested: blend }));
+        all.push(s.add(Material::Mask { opacity: half, nested: blend }));
+    }
+    let two_sided = s.add(Material::TwoSided { front: all[0], back: all[1] });
+    all.push(s.add(Material::Blend { weight: half, parts: [two_sided, all[0]] }));
+    all.push(s.add(Material::NormalMap {
+        normal,
+        options: Perturbation { flip_invalid_normals: false, use_shadowing_function: true },
+        nested: two_sided,
+    }));
     all
 }
 
@@ -238,4 +254,56 @@ fn impossible_compositions_are_refused() {
     assert_eq!(refused(&mut s, two), Some(MaterialError::TransmissiveSide));
     let two = Material::TwoSided { front: paper, back: unknown };
     assert_eq!(refused(&mut s, two), Some(MaterialError::Unknown(9)));
+}
+
+#[test]
+fn blends_are_shares_of_their_parts_on_either_side() {
+    let mut s = Studio::new();
+    let (light, dark, quarter) = (s.diffuse(0.8), s.diffuse(0.4), s.grey(0.25));
+    let blend = s.add(Material::Blend { weight: quarter, parts: [light, dark] });
+    let both = s.add(Material::TwoSided { front: light, back: blend });
+    let over = s.grey(7.0);
+    let second = s.add(Material::Blend { weight: over, parts: [light, dark] });
+    let albedo = |id, wo| s.at(id, wo).albedo(wo).map_or(f32::NAN, |c| c.r);
+    // 0.75 · 0.8 + 0.25 · 0.4 = 0.7, in one rounding of each product.
+    assert!((albedo(blend, UP) - 0.7).abs() < 1e-6 && albedo(blend, DOWN) == 0.0);
+    assert!((albedo(both, DOWN) - 0.7).abs() < 1e-6 && albedo(both, UP) == 0.8);
+    assert_eq!(albedo(second, UP), 0.4);
+}
+
+#[test]
+fn bumps_are_the_normal_of_their_slope() {
+    use crate::geometry::{GeometryBuilder, Located, Ray, Rectangle, Shape, Transform};
+    use crate::texture::{Bitmap, BitmapImage, Filter, Texture, UvTransform, Wrap};
+
+    let mut s = Studio::new();
+    let image = BitmapImage::from_f32(4, 1, 1, &[0.0, 0.25, 0.5, 0.75]).expect("four texels");
+    let ramp = Bitmap::new(image, Filter::Bilinear, Wrap::Clamp, UvTransform::IDENTITY);
+    let height = s.textures.add(Texture::Bitmap(ramp));
+    let flat = s.grey(0.5);
+    let nested = s.diffuse(0.8);
+    let options = Perturbation::default();
+    let bumpy = s.add(Material::BumpMap { height, scale: 0.5, options, nested });
+    let smooth = s.add(Material::BumpMap { height: flat, scale: 0.5, options, nested });
+    // The height rises by 0.5 over u, and the square is 2 wide: n ∝ (−0.25, 0, 1).
+    let n = Vec3::new(-0.25, 0.0, 1.0).normalize() * 0.5 + Vec3::splat(0.5);
+    let normal = s.textures.constant(Color::from(n.to_array()));
+    let mapped = s.add(Material::NormalMap { normal, options, nested });
+
+    let mut builder = GeometryBuilder::new();
+    builder.add_shape(Shape::Rectangle(Rectangle::new(&Transform::IDENTITY).expect("a square")));
+    let geometry = builder.build();
+    let ray = Ray::new(Vec3::new(0.1, 0.2, 1.0), -Vec3::Z);
+    let hit = geometry.intersect(&ray).expect("the square is below");
+    let surface = Located::new(&geometry, geometry.surface_point(&ray, &hit));
+    let eval = |id| {
+        let bsdf = s.materials.prepare(id, &s.textures, (&surface).into(), Side::Front);
+        bsdf.eval(UP, Vec3::new(-0.48, 0.6, 0.64)).r
+    };
+    // A few roundings of numbers of order 1.
+    assert!((eval(bumpy) - eval(mapped)).abs() < 1e-6);
+    assert!((eval(smooth) - eval(nested)).abs() < 1e-6);
+    assert!((eval(bumpy) - eval(nested)).abs() > 0.01);
+    let refused = s.materials.add(Material::NormalMap { normal, options, nested: bumpy });
+    assert_eq!(refused.err(), Some(MaterialError::NestedBumps));
 }

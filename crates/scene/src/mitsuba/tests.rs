@@ -74,6 +74,18 @@ fn every_bsdf_is_translated() {
         "<bsdf type=\"twosided\"><bsdf type=\"diffuse\"/></bsdf>",
         |m| matches!(m, Material::TwoSided { front, back } if front == back),
     );
+    is(
+        "<bsdf type=\"blendbsdf\"><bsdf type=\"diffuse\"/><bsdf type=\"plastic\"/></bsdf>",
+        |m| matches!(m, Material::Blend { parts: [a, b], .. } if a < b),
+    );
+    is(
+        "<bsdf type=\"normalmap\"><rgb name=\"normalmap\" value=\"0.5 0.5 1\"/>\
+         <boolean name=\"flip_invalid_normals\" value=\"false\"/><bsdf type=\"diffuse\"/></bsdf>",
+        |m| {
+            matches!(m, Material::NormalMap { options, .. }
+                if !options.flip_invalid_normals && options.use_shadowing_function)
+        },
+    );
     is("<bsdf type=\"null\"/>", |m| matches!(m, Material::Null));
 }
 
@@ -126,6 +138,20 @@ fn principled_materials_have_an_index_by_either_name_and_transmit_only_on_demand
 }
 
 #[test]
+fn materials_around_others_say_what_they_lack() {
+    let bsdf = |plugin: &str, inner: &str| format!("<bsdf type=\"{plugin}\">\n{inner}</bsdf>");
+    let diffuse = "<bsdf type=\"diffuse\"/>";
+    refused(&bsdf("blendbsdf", diffuse), 2, "a blend needs two bsdfs");
+    refused(&bsdf("normalmap", diffuse), 2, "no texture “normalmap”");
+    refused(&bsdf("bumpmap", diffuse), 2, "the bump map has no texture inside");
+    refused(&bsdf("mask", ""), 2, "bsdf “mask” has no bsdf inside");
+    let board = "<texture type=\"checkerboard\" name=\"height\"/>";
+    refused(&bsdf("bumpmap", &format!("{board}{diffuse}")), 3, "must be a bitmap");
+    let glass = bsdf("blendbsdf", &format!("{diffuse}<bsdf type=\"dielectric\"/>"));
+    refused(&bsdf("twosided", &glass), 2, "only an opaque material");
+}
+
+#[test]
 fn attributes_are_looked_up_on_the_meshes_that_have_them() {
     let bsdf = "<bsdf type=\"diffuse\"><texture type=\"mesh_attribute\" name=\"reflectance\">\
                 <string name=\"name\" value=\"vertex_color\"/></texture></bsdf>";
@@ -150,7 +176,7 @@ fn unknown_plugins_and_parameters_are_named_with_those_that_exist() {
     refused(
         "<shape type=\"sphere\">\n<bsdf type=\"hair\"/></shape>",
         3,
-        "the bsdf “hair” is not supported; supported are conductor, dielectric",
+        "the bsdf “hair” is not supported; supported are blendbsdf, bumpmap, conductor",
     );
     refused("<bsdf type=\"difuse\"/>", 2, "did you mean “diffuse”?");
     refused(

@@ -91,6 +91,21 @@ impl Bitmap {
             Filter::Bilinear => self.image.bilinear([x - 0.5, y - 0.5], [self.wrap; 2]),
         }
     }
+
+    /// How the luminance of [`color`](Self::color) changes with u and v; 0 for nearest texels.
+    ///
+    /// # Source
+    /// Mitsuba 3's `eval_1_grad`.
+    pub fn gradient(&self, uv: [f32; 2]) -> [f32; 2] {
+        if self.filter == Filter::Nearest {
+            return [0.0; 2];
+        }
+        let [u, v] = self.uv.apply(uv);
+        let size = [self.image.width() as f32, self.image.height() as f32];
+        let at = [u * size[0] - 0.5, v * size[1] - 0.5];
+        let [x, y] = self.image.bilinear_gradient(at, [self.wrap; 2]);
+        self.uv.pull_back([x.luminance() * size[0], y.luminance() * size[1]])
+    }
 }
 
 #[cfg(test)]
@@ -166,5 +181,33 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn the_gradient_is_the_difference_of_the_values_beside() {
+        let data: [f32; 12] = core::array::from_fn(|i| (i * i % 7) as f32 / 7.0);
+        let image = BitmapImage::from_f32(4, 3, 1, &data).expect("twelve texels");
+        let turn = DMat4::from_scale(DVec3::new(2.0, 0.5, 1.0))
+            * DMat4::from_rotation_z(0.3)
+            * DMat4::from_translation(DVec3::new(0.1, 0.2, 0.0));
+        let uv = UvTransform::from_matrix4(turn).expect("finite");
+        let bitmap = Bitmap::new(image, Filter::Bilinear, Wrap::Repeat, uv);
+        for at in [[0.31_f32, 0.42], [0.9, 0.05], [-0.37, 1.2]] {
+            let gradient = bitmap.gradient(at);
+            let h = 1.0 / 1024.0;
+            for (axis, slope) in gradient.into_iter().enumerate() {
+                let value = |sign: f32| {
+                    let mut moved = at;
+                    moved[axis] += sign * h;
+                    bitmap.color(moved).r
+                };
+                let difference = (value(1.0) - value(-1.0)) / (2.0 * h);
+                // Values have an error of 1e-7, over 2h; they are bilinear, so that curvature adds next to nothing.
+                assert!((difference - slope).abs() < 5e-3, "{at:?} {difference} {slope}");
+            }
+        }
+        let image = BitmapImage::from_f32(4, 3, 1, &data).expect("twelve texels");
+        let nearest = Bitmap::new(image, Filter::Nearest, Wrap::Repeat, uv);
+        assert_eq!(nearest.gradient([0.3, 0.4]), [0.0; 2]);
     }
 }

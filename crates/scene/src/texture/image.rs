@@ -185,6 +185,16 @@ impl BitmapImage {
         between(row) * (1.0 - fy) + between(below) * fy
     }
 
+    /// How [`bilinear`](Self::bilinear) changes with `x` and with `y`, per texel.
+    pub(crate) fn bilinear_gradient(&self, [x, y]: [f32; 2], wrap: [Wrap; 2]) -> [Color; 2] {
+        let (column, fx) = split(x);
+        let (row, fy) = split(y);
+        let (right, below) = (column.saturating_add(1), row.saturating_add(1));
+        let [a, b] = [column, right].map(|column| self.wrapped(column, row, wrap));
+        let [c, d] = [column, right].map(|column| self.wrapped(column, below, wrap));
+        [(b - a) * (1.0 - fy) + (d - c) * fy, (c - a) * (1.0 - fx) + (d - b) * fx]
+    }
+
     fn colors(&self) -> impl Iterator<Item = Color> {
         (0..self.height)
             .flat_map(move |row| (0..self.width).map(move |column| self.texel(column, row)))

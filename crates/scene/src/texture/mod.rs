@@ -157,6 +157,14 @@ impl Textures {
         }
     }
 
+    /// How the number at coordinates `uv` changes with u and v; 0 for all but bitmaps.
+    pub fn gradient(&self, id: TextureId, uv: [f32; 2]) -> [f32; 2] {
+        match self.get(id) {
+            Some(Texture::Bitmap(bitmap)) => bitmap.gradient(uv),
+            _ => [0.0; 2],
+        }
+    }
+
     /// Textures and those that they are made of.
     pub fn with_parts(&self, ids: impl IntoIterator<Item = TextureId>) -> BTreeSet<TextureId> {
         let mut all = BTreeSet::new();

@@ -38,6 +38,11 @@ impl UvTransform {
     pub fn apply(&self, [u, v]: [f32; 2]) -> [f32; 2] {
         (self.matrix * Vec2::new(u, v) + self.translation).to_array()
     }
+
+    /// The gradient before the map of a function whose gradient after it is given: `Mᵀ g`.
+    pub fn pull_back(&self, gradient: [f32; 2]) -> [f32; 2] {
+        (self.matrix.transpose() * Vec2::from_array(gradient)).to_array()
+    }
 }
 
 impl Default for UvTransform {

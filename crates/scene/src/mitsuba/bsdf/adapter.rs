@@ -1,11 +1,14 @@
-//! `mask`, `twosided` and `null`.
+//! `mask`, `blendbsdf`, `twosided`, `normalmap`, `bumpmap` and `null`.
 
-use super::super::Context;
+use alloc::format;
+
 use super::super::reader::PluginReader;
-use super::super::value::{Role, texture_or};
+use super::super::value::{Role, texture_if_given, texture_or};
+use super::super::{Context, texture};
 use super::translate;
 use crate::SceneError;
-use crate::material::{Material, MaterialId};
+use crate::material::{Material, MaterialId, Perturbation};
+use crate::texture::Texture;
 use crate::xml::Kind;
 
 /// A surface with holes: `opacity` (0.5) and one model inside.
@@ -14,11 +17,80 @@ pub(super) fn mask<'a>(
     context: &mut Context<'a>,
 ) -> Result<MaterialId, SceneError> {
     let opacity = texture_or(reader, context, "opacity", Role::Reflectance, 0.5)?;
-    let Some(nested) = reader.child(Kind::Bsdf, context)? else {
-        return Err(reader.error("opacity", "the mask has no bsdf inside"));
-    };
-    let nested = translate(context, nested.node)?;
+    let nested = nested(reader, context)?;
     context.add_material(Material::Mask { opacity, nested }, &reader.node().location)
+}
+
+/// The one model inside.
+fn nested<'a>(
+    reader: &mut PluginReader<'a>,
+    context: &mut Context<'a>,
+) -> Result<MaterialId, SceneError> {
+    match reader.child(Kind::Bsdf, context)? {
+        Some(nested) => translate(context, nested.node),
+        None => {
+            let message = format!("{} has no bsdf inside", reader.title());
+            Err(SceneError::scene(reader.node().location.clone(), message))
+        }
+    }
+}
+
+/// Two models in shares: `weight` (0.5) is that of the second.
+pub(super) fn blend<'a>(
+    reader: &mut PluginReader<'a>,
+    context: &mut Context<'a>,
+) -> Result<MaterialId, SceneError> {
+    let weight = texture_or(reader, context, "weight", Role::Reflectance, 0.5)?;
+    let location = &reader.node().location;
+    let [first, second] = reader.children(Kind::Bsdf, context)[..] else {
+        return Err(SceneError::scene(location.clone(), "a blend needs two bsdfs inside"));
+    };
+    let parts = [translate(context, first.node)?, translate(context, second.node)?];
+    context.add_material(Material::Blend { weight, parts }, location)
+}
+
+/// A model in the frame of another normal: `normalmap`, `flip_invalid_normals` and `use_shadowing_function` (true).
+pub(super) fn normal_map<'a>(
+    reader: &mut PluginReader<'a>,
+    context: &mut Context<'a>,
+) -> Result<MaterialId, SceneError> {
+    let Some(normal) = texture_if_given(reader, context, "normalmap", Role::Reflectance)? else {
+        return Err(reader.error("normalmap", "the normal map has no texture “normalmap”"));
+    };
+    let options = perturbation(reader)?;
+    let nested = nested(reader, context)?;
+    let material = Material::NormalMap { normal, options, nested };
+    context.add_material(material, &reader.node().location)
+}
+
+/// A model on bumps: a bitmap of any name, `scale` (1), `flip_invalid_normals` and `use_shadowing_function` (true).
+pub(super) fn bump_map<'a>(
+    reader: &mut PluginReader<'a>,
+    context: &mut Context<'a>,
+) -> Result<MaterialId, SceneError> {
+    let location = &reader.node().location;
+    let Some(child) = reader.child(Kind::Texture, context)? else {
+        return Err(SceneError::scene(location.clone(), "the bump map has no texture inside"));
+    };
+    let height = texture::translate(context, child.node)?;
+    if !matches!(context.textures.get(height), Some(Texture::Bitmap(_) | Texture::Constant(_))) {
+        let message = "the height of a bump map must be a bitmap";
+        return Err(SceneError::scene(child.location.clone(), message));
+    }
+    let finite = |x: f64| (x as f32).is_finite();
+    let scale =
+        reader.float_in("scale", 1.0, "of a size that single precision has", finite)? as f32;
+    let options = perturbation(reader)?;
+    let nested = nested(reader, context)?;
+    context.add_material(Material::BumpMap { height, scale, options, nested }, location)
+}
+
+/// What is done where the normals disagree.
+fn perturbation(reader: &mut PluginReader<'_>) -> Result<Perturbation, SceneError> {
+    Ok(Perturbation {
+        flip_invalid_normals: reader.boolean("flip_invalid_normals", true)?,
+        use_shadowing_function: reader.boolean("use_shadowing_function", true)?,
+    })
 }
 
 /// The same model on both sides, or one for each.

@@ -16,10 +16,13 @@ use crate::xml::NodeId;
 
 /// The models there are.
 const BSDFS: &Family<MaterialId> = &[
+    ("blendbsdf", adapter::blend),
+    ("bumpmap", adapter::bump_map),
     ("conductor", conductor::smooth),
     ("dielectric", dielectric::smooth),
     ("diffuse", diffuse::diffuse),
     ("mask", adapter::mask),
+    ("normalmap", adapter::normal_map),
     ("null", adapter::null),
     ("plastic", plastic::smooth),
     ("principled", principled::solid),
