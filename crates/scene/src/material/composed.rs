@@ -110,9 +110,7 @@ impl Bsdf for Composed<'_> {
     /// What passes straight on does so whatever the normal.
     fn pass_through(&self, wo: Vec3) -> Color {
         match self.how {
-            Composition::Blend { parts, weight } => {
-                self.blend(parts, weight, wo).pass_through(wo)
-            }
+            Composition::Blend { parts, weight } => self.blend(parts, weight, wo).pass_through(wo),
             Composition::Perturbed { nested, .. } => self.parts.part(nested, wo).pass_through(wo),
         }
     }
