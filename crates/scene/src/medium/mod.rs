@@ -10,7 +10,11 @@ mod majorants;
 mod phase;
 mod volume;
 
+use alloc::boxed::Box;
 use alloc::vec::Vec;
+
+use etendue_math::Spectrum;
+use etendue_math::glam::Vec3;
 
 pub use density::Density;
 pub use grid::{GridError, VolumeGrid};
@@ -52,7 +56,7 @@ pub enum Extinction {
     /// The same everywhere, finite and not negative.
     Homogeneous(Color),
     /// Differs from place to place.
-    Heterogeneous(Density),
+    Heterogeneous(Box<Density>),
 }
 
 impl Medium {
@@ -66,8 +70,7 @@ impl Medium {
 
     /// The share of light that is scattered at a point and not absorbed, in [0, 1].
     #[inline]
-    pub fn albedo_at(&self, position: etendue_math::glam::Vec3) -> Color {
-        use etendue_math::Spectrum;
+    pub fn albedo_at(&self, position: Vec3) -> Color {
         self.albedo.at(position).map(|albedo| albedo.min(1.0))
     }
 }
