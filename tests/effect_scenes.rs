@@ -25,7 +25,7 @@ const SCENES: &[(&str, f64, f64)] = &[
     ("environment-map", 0.0031, 0.0024),
     ("heterogeneous-medium", 0.02, 0.011),
     ("hidden-emitters", 0.0021, 0.0035),
-    ("homogeneous-medium", 0.2, 0.2),
+    ("homogeneous-medium", 0.018, 0.013),
     ("indirect-light", 0.0025, 0.0042),
     ("instancing", 0.0037, 0.0022),
     ("mesh-attribute", 0.026, 0.01),

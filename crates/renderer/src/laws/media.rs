@@ -41,7 +41,10 @@ fn grid(sigma: [f32; 3], albedo: f32, phase: Phase, value: impl Fn(u32) -> f32) 
     let to_world = Transform::translate(DVec3::splat(-2.0)).and_then(|t| t.compose(&size));
     let volume = Volume::grid(grid, to_world.expect("regular"), GridFilter::Trilinear, Wrap::Clamp);
     let density = Density::new(volume, 1.0).expect("thin enough");
-    Medium { extinction: Extinction::Heterogeneous(density), ..homogeneous(sigma, albedo, phase) }
+    Medium {
+        extinction: Extinction::Heterogeneous(Box::new(density)),
+        ..homogeneous(sigma, albedo, phase)
+    }
 }
 
 /// A medium of the same density everywhere, in both forms.

@@ -123,6 +123,17 @@ impl Walk {
             view: View::Unobstructed,
         }
     }
+
+    /// Goes on behind a surface in the same direction.
+    #[inline(always)]
+    fn look_through(&mut self, hit: &Hit, point: &SurfacePoint, rays: &mut RayCounts) {
+        let far_end = self.ray.at(self.ray.t_max);
+        let onwards = point.spawn(self.ray.direction);
+        // The far clipping plane stays where it is.
+        let t_max = if far_end.is_finite() { self.ray.t_max - hit.t } else { f32::INFINITY };
+        self.ray = Ray { t_max, ..onwards };
+        rays.camera += 1;
+    }
 }
 
 /// Whether a path goes on.
@@ -176,19 +187,8 @@ impl<'a, 's, R: Rays> PathTracer<'a, 's, R> {
             if !(self.hides_emitters(walk) && self.is_emitter(&point)) {
                 return Some(point);
             }
-            self.look_through(walk, &hit, &point, rays);
+            walk.look_through(&hit, &point, rays);
         }
-    }
-
-    /// Goes on behind a surface in the same direction.
-    #[inline(always)]
-    fn look_through(&self, walk: &mut Walk, hit: &Hit, point: &SurfacePoint, rays: &mut RayCounts) {
-        let far_end = walk.ray.at(walk.ray.t_max);
-        let onwards = point.spawn(walk.ray.direction);
-        // The far clipping plane stays where it is.
-        let t_max = if far_end.is_finite() { walk.ray.t_max - hit.t } else { f32::INFINITY };
-        walk.ray = Ray { t_max, ..onwards };
-        rays.camera += 1;
     }
 
     #[inline(always)]

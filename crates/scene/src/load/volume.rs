@@ -96,11 +96,9 @@ mod tests {
     fn file(version: u8, words: [i32; 5], values: &[f32]) -> Vec<u8> {
         let mut bytes = Vec::from(*b"VOL");
         bytes.push(version);
-        words.iter().for_each(|word| bytes.extend(word.to_le_bytes()));
-        for corner in [-1.0_f32, 0.0, 0.0, 1.0, 2.0, 3.0] {
-            bytes.extend(corner.to_le_bytes());
-        }
-        values.iter().for_each(|value| bytes.extend(value.to_le_bytes()));
+        bytes.extend(words.iter().flat_map(|word| word.to_le_bytes()));
+        let corners = [-1.0_f32, 0.0, 0.0, 1.0, 2.0, 3.0];
+        bytes.extend(corners.iter().chain(values).flat_map(|number| number.to_le_bytes()));
         bytes
     }
 

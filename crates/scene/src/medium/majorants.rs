@@ -131,8 +131,9 @@ impl Iterator for Crossing<'_> {
 
     #[inline]
     fn next(&mut self) -> Option<Stretch> {
-        // Written so that NaN ends it.
-        if !(self.t < self.t_end) {
+        // False for NaN.
+        let goes_on = self.t < self.t_end;
+        if !goes_on {
             return None;
         }
         let [x, y, z] = self.cell;

@@ -10,15 +10,17 @@ mod majorants;
 mod phase;
 mod volume;
 
+use alloc::boxed::Box;
 use alloc::vec::Vec;
+
+use etendue_math::Spectrum;
+use etendue_math::glam::Vec3;
 
 pub use density::Density;
 pub use grid::{GridError, VolumeGrid};
 pub use majorants::Stretch;
 pub use phase::Phase;
 pub use volume::{GridFilter, Volume};
-
-use etendue_math::Spectrum;
 
 use crate::Color;
 
@@ -54,7 +56,7 @@ pub enum Extinction {
     /// The same everywhere, finite and not negative.
     Homogeneous(Color),
     /// Differs from place to place.
-    Heterogeneous(Density),
+    Heterogeneous(Box<Density>),
 }
 
 impl Extinction {
@@ -75,13 +77,13 @@ impl Medium {
     pub(crate) fn lose_colour(&mut self) {
         self.extinction = match core::mem::replace(&mut self.extinction, Extinction::NOTHING) {
             Extinction::Homogeneous(sigma) => Extinction::Homogeneous(Color::splat(sigma.mean())),
-            Extinction::Heterogeneous(density) => Extinction::Heterogeneous(density.grey()),
+            Extinction::Heterogeneous(density) => Extinction::Heterogeneous(Box::new(density.grey())),
         };
     }
 
     /// The share of light that is scattered at a point and not absorbed, in [0, 1].
     #[inline]
-    pub fn albedo_at(&self, position: etendue_math::glam::Vec3) -> Color {
+    pub fn albedo_at(&self, position: Vec3) -> Color {
         self.albedo.at(position).map(|albedo| albedo.min(1.0))
     }
 }

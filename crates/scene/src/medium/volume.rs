@@ -1,5 +1,7 @@
 //! Values that may vary in space.
 
+use alloc::boxed::Box;
+
 use etendue_math::Spectrum;
 use etendue_math::glam::Vec3;
 
@@ -32,7 +34,16 @@ pub struct Volume {
 #[derive(Clone, Debug)]
 enum Values {
     Constant(Color),
-    Grid { grid: VolumeGrid, to_world: Transform, filter: GridFilter, wrap: Wrap },
+    Grid(Box<PlacedGrid>),
+}
+
+/// A grid that fills the image of the unit cube.
+#[derive(Clone, Debug)]
+struct PlacedGrid {
+    grid: VolumeGrid,
+    to_world: Transform,
+    filter: GridFilter,
+    wrap: Wrap,
 }
 
 const UNIT_CUBE: Aabb = Aabb { min: Vec3::ZERO, max: Vec3::ONE };
@@ -52,15 +63,16 @@ impl Volume {
     /// A grid that fills the unit cube, placed by `to_world` and continued beyond by `wrap`.
     pub fn grid(grid: VolumeGrid, to_world: Transform, filter: GridFilter, wrap: Wrap) -> Self {
         let bounds = to_world.aabb(&UNIT_CUBE);
-        Self { values: Values::Grid { grid, to_world, filter, wrap }, bounds }
+        Self { values: Values::Grid(Box::new(PlacedGrid { grid, to_world, filter, wrap })), bounds }
     }
 
     /// The same without colour: the mean of the channels.
     pub(super) fn grey(self) -> Self {
         let values = match self.values {
             Values::Constant(color) => Values::Constant(Color::splat(color.mean())),
-            Values::Grid { grid, to_world, filter, wrap } => {
-                Values::Grid { grid: grid.grey(), to_world, filter, wrap }
+            Values::Grid(mut placed) => {
+                placed.grid = placed.grid.grey();
+                Values::Grid(placed)
             }
         };
         Self { values, ..self }
@@ -75,7 +87,7 @@ impl Volume {
     pub fn is_coloured(&self) -> bool {
         match &self.values {
             Values::Constant(color) => !(color.r == color.g && color.g == color.b),
-            Values::Grid { grid, .. } => grid.has_colours(),
+            Values::Grid(placed) => placed.grid.has_colours(),
         }
     }
 
@@ -84,19 +96,7 @@ impl Volume {
     pub fn at(&self, position: Vec3) -> Color {
         match &self.values {
             Values::Constant(color) => *color,
-            Values::Grid { grid, to_world, filter, wrap } => {
-                let place = to_world.inverse_point(position);
-                match filter {
-                    GridFilter::Trilinear => trilinear(grid, place, *wrap),
-                    GridFilter::Nearest => {
-                        let cell = [0, 1, 2].map(|axis| {
-                            let cells = grid.size()[axis];
-                            wrap.apply(split(place[axis] * cells as f32).0, cells)
-                        });
-                        grid.cell(cell)
-                    }
-                }
-            }
+            Values::Grid(placed) => placed.at(position),
         }
     }
 
@@ -104,14 +104,33 @@ impl Volume {
     pub(super) fn largest_within(&self, region: &Aabb) -> f32 {
         match &self.values {
             Values::Constant(color) => color.max_channel(),
-            Values::Grid { grid, to_world, wrap, .. } => {
-                let local = to_world.inverse().aabb(region);
-                let cells = [0, 1, 2].map(|axis| {
-                    cells_between(local.min[axis], local.max[axis], grid.size()[axis], *wrap)
+            Values::Grid(placed) => placed.largest_within(region),
+        }
+    }
+}
+
+impl PlacedGrid {
+    #[inline]
+    fn at(&self, position: Vec3) -> Color {
+        let place = self.to_world.inverse_point(position);
+        match self.filter {
+            GridFilter::Trilinear => trilinear(&self.grid, place, self.wrap),
+            GridFilter::Nearest => {
+                let cell = [0, 1, 2].map(|axis| {
+                    let cells = self.grid.size()[axis];
+                    self.wrap.apply(split(place[axis] * cells as f32).0, cells)
                 });
-                largest_cell(grid, cells)
+                self.grid.cell(cell)
             }
         }
+    }
+
+    fn largest_within(&self, region: &Aabb) -> f32 {
+        let local = self.to_world.inverse().aabb(region);
+        let cells = [0, 1, 2].map(|axis| {
+            cells_between(local.min[axis], local.max[axis], self.grid.size()[axis], self.wrap)
+        });
+        largest_cell(&self.grid, cells)
     }
 }
 

@@ -43,8 +43,11 @@ impl<I: Iterator<Item = Stretch>> Tentative<'_, I> {
     #[inline]
     pub(super) fn next(&mut self) -> Option<(Vec3, f32)> {
         let mut thickness = optical_thickness(self.uniform());
-        // Written so that NaN ends it.
-        while !(thickness < self.left) {
+        loop {
+            // False for NaN, which ends with the stretches.
+            if thickness < self.left {
+                break;
+            }
             thickness -= self.left;
             let Stretch { begin, end, majorant } = self.stretches.next()?;
             self.end = end;

@@ -93,7 +93,7 @@ impl<'s, R: Rays> PathTracer<'_, 's, R> {
             if !(self.hides_emitters(walk) && self.is_emitter(&point)) {
                 return Event::Surface(point);
             }
-            self.look_through(walk, &hit, &point, rays);
+            walk.look_through(&hit, &point, rays);
             course.cross(self.scene, &point, walk.ray.direction);
         }
     }

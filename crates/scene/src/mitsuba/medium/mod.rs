@@ -3,6 +3,7 @@
 mod phase;
 mod volume;
 
+use alloc::boxed::Box;
 use alloc::format;
 
 use super::reader::PluginReader;
@@ -95,7 +96,7 @@ fn heterogeneous<'a>(
         let help = format!("up to {:e} is possible", Density::THICKEST);
         reader.error("sigma_t", message).help(help)
     })?;
-    medium(reader, context, Extinction::Heterogeneous(density))
+    medium(reader, context, Extinction::Heterogeneous(Box::new(density)))
 }
 
 fn scale(reader: &mut PluginReader<'_>) -> Result<f32, SceneError> {

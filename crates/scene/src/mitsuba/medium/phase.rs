@@ -18,6 +18,7 @@ pub(super) fn translate(context: &mut Context<'_>, id: NodeId) -> Result<Phase, 
     context.translate(PHASES, context.description.node(id))
 }
 
+#[expect(clippy::unnecessary_wraps, reason = "the signature of its family")]
 fn isotropic<'a>(_: &mut PluginReader<'a>, _: &mut Context<'a>) -> Result<Phase, SceneError> {
     Ok(Phase::Isotropic)
 }

@@ -91,9 +91,6 @@ fn grid<'a>(
 fn placed(to_world: &Transform, bounds: &Aabb) -> Result<Transform, TransformError> {
     let min = bounds.min.as_dvec3();
     let size: DVec3 = bounds.max.as_dvec3() - min;
-    to_world.compose(&Transform::from_affine(DAffine3::from_scale_rotation_translation(
-        size,
-        Default::default(),
-        min,
-    ))?)
+    let fit = DAffine3::from_translation(min) * DAffine3::from_scale(size);
+    to_world.compose(&Transform::from_affine(fit)?)
 }
