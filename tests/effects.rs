@@ -39,6 +39,14 @@ const MUCH: &str = r#"<scene version="3.0.0">
     <shape type="rectangle"><emitter type="area"/></shape>
 </scene>"#;
 
+const SURFACES: &str = r#"<scene version="3.0.0">
+    <shape type="sphere"><bsdf type="principled"><float name="spec_trans" value="0.5"/></bsdf></shape>
+    <shape type="sphere"><bsdf type="blendbsdf"><bsdf type="diffuse"/><bsdf type="diffuse"/></bsdf></shape>
+    <shape type="sphere"><bsdf type="normalmap">
+        <rgb name="normalmap" value="0.5 0.5 1"/><bsdf type="diffuse"/>
+    </bsdf></shape>
+</scene>"#;
+
 fn effects(scene: &str) -> Vec<Value> {
     let folder = Folder::new();
     folder.write("scene.xml", scene);
@@ -83,6 +91,21 @@ fn every_effect_names_the_element_that_calls_for_it() {
         ("strict-normals", "integrator “path” at scene.xml:2:5"),
     ];
     assert_eq!(present(&effects), expected);
+}
+
+#[test]
+fn materials_made_of_lobes_and_of_others_name_themselves() {
+    let effects = effects(SURFACES);
+    let of_bsdfs: Vec<_> =
+        present(&effects).into_iter().filter(|(_, reason)| reason.starts_with("bsdf")).collect();
+    let expected = [
+        ("rough-reflection", "bsdf “principled” at scene.xml:2:26"),
+        ("rough-transmission", "bsdf “principled” at scene.xml:2:26"),
+        ("principled", "bsdf “principled” at scene.xml:2:26"),
+        ("blend", "bsdf “blendbsdf” at scene.xml:3:26"),
+        ("normal-map", "bsdf “normalmap” at scene.xml:4:26"),
+    ];
+    assert_eq!(of_bsdfs, expected);
 }
 
 #[test]
