@@ -54,6 +54,14 @@ const SEEN: &str = r#"<scene version="3.0.0">
     </bsdf></shape>
 </scene>"#;
 
+const SURFACES: &str = r#"<scene version="3.0.0">
+    <shape type="sphere"><bsdf type="principled"><float name="spec_trans" value="0.5"/></bsdf></shape>
+    <shape type="sphere"><bsdf type="blendbsdf"><bsdf type="diffuse"/><bsdf type="diffuse"/></bsdf></shape>
+    <shape type="sphere"><bsdf type="normalmap">
+        <rgb name="normalmap" value="0.5 0.5 1"/><bsdf type="diffuse"/>
+    </bsdf></shape>
+</scene>"#;
+
 fn effects(scene: &str) -> Vec<Value> {
     effects_with(scene, &[])
 }
@@ -147,6 +155,20 @@ fn media_are_present_where_the_integrator_sees_them_and_a_shape_bounds_them() {
     assert_eq!(present(&seen), expected);
     let expected = [("indirect-light", "integrator “path” at scene.xml:2:5")];
     assert_eq!(present(&effects(&scene("path"))), expected);
+}
+
+#[test]
+fn materials_made_of_lobes_and_of_others_name_themselves() {
+    let effects = effects(SURFACES);
+    let of_bsdfs: Vec<_> =
+        present(&effects).into_iter().filter(|(_, reason)| reason.starts_with("bsdf")).collect();
+    let expected = [
+        ("rough-transmission", "bsdf “principled” at scene.xml:2:26"),
+        ("principled", "bsdf “principled” at scene.xml:2:26"),
+        ("blend", "bsdf “blendbsdf” at scene.xml:3:26"),
+        ("normal-map", "bsdf “normalmap” at scene.xml:4:26"),
+    ];
+    assert_eq!(of_bsdfs, expected);
 }
 
 #[test]

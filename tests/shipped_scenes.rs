@@ -51,31 +51,6 @@ fn scene_files(folder: &Path, found: &mut Vec<PathBuf>) {
     }
 }
 
-/// The scenes of `scenes/effects`, each of which is called after an effect.
-fn scenes_of_effects() -> Vec<PathBuf> {
-    let mut files = Vec::new();
-    scene_files(&repository("scenes/effects"), &mut files);
-    files.sort();
-    files
-}
-
-#[test]
-fn every_scene_of_an_effect_calls_for_it_and_renders_without_complaint() {
-    for path in scenes_of_effects() {
-        let effect = path.file_stem().expect("a name").to_str().expect("UTF-8");
-        let folder = Folder::new();
-        let outcome = folder.run(&["effects", path.to_str().expect("UTF-8"), "--json"]);
-        assert_eq!((outcome.exit, outcome.stderr.as_str()), (Some(0), ""), "{effect}");
-        let effects = outcome.json();
-        let present = effects.as_array().expect("a list").iter().filter(|e| e["present"] == true);
-        let names: Vec<_> = present.map(|e| e["effect"].as_str().expect("a name")).collect();
-        assert!(names.contains(&effect), "{effect} is none of {names:?}");
-        let picture = folder.render(&path, &["--size", "24x16", "--spp", "16", "--strict"]);
-        assert!(picture.samples().all(f32::is_finite), "{effect}");
-        assert!(picture.samples().any(|x| x > 0.0), "{effect} is black");
-    }
-}
-
 #[test]
 fn every_shipped_scene_has_a_golden_picture() {
     let mut files = Vec::new();
@@ -83,8 +58,6 @@ fn every_shipped_scene_has_a_golden_picture() {
     // Those of effects have a test of their own.
     files.retain(|file| !file.starts_with(repository("scenes/effects")));
     files.sort();
-    let effects = scenes_of_effects();
-    files.retain(|file| !effects.contains(file));
     let mut golden = GOLDEN.map(|golden| repository(golden.scene));
     golden.sort();
     assert_eq!(files, golden);

@@ -123,7 +123,14 @@ fn every_kind(s: &mut Studio) -> Vec<MaterialId> {
     ] {
         all.push(s.add(material));
     }
+    made_of(s, &mut all);
+    all
+}
+
+/// Adds materials made of those that are there.
+fn made_of(s: &mut Studio, all: &mut Vec<MaterialId>) {
     let (quarter, glossy, glass) = (s.grey(0.25), all[7], all[all.len() - 4]);
+    let half = s.grey(0.5);
     let normal = s.textures.constant(Color::new(0.7, 0.4, 0.9));
     for nested in [all[0], glossy, glass] {
         let blend = s.add(Material::Blend { weight: quarter, parts: [nested, all[1]] });
@@ -139,7 +146,6 @@ fn every_kind(s: &mut Studio) -> Vec<MaterialId> {
         options: Perturbation { flip_invalid_normals: false, use_shadowing_function: true },
         nested: two_sided,
     }));
-    all
 }
 
 #[test]

@@ -77,7 +77,9 @@ impl Medium {
     pub(crate) fn lose_colour(&mut self) {
         self.extinction = match core::mem::replace(&mut self.extinction, Extinction::NOTHING) {
             Extinction::Homogeneous(sigma) => Extinction::Homogeneous(Color::splat(sigma.mean())),
-            Extinction::Heterogeneous(density) => Extinction::Heterogeneous(Box::new(density.grey())),
+            Extinction::Heterogeneous(density) => {
+                Extinction::Heterogeneous(Box::new(density.grey()))
+            }
         };
     }
 
