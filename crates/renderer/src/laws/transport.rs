@@ -74,7 +74,7 @@ fn only_media_and_what_light_passes_call_for_the_configuration_of_volumes() {
         let scene = sketch.point_seen(DVec3::new(0.0, -4.0, 0.0), DVec3::ZERO);
         let mut settings = settings(None, Strategy::Mis);
         settings.path.volumes = volumes;
-        Renderer::new(&scene, settings).expect("a thread").transport
+        Renderer::new(&scene, settings).expect("a thread").configuration
     };
     let solid = |sketch: &mut Sketch| {
         let grey = sketch.grey(0.5);
