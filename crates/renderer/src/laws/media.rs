@@ -161,7 +161,7 @@ fn shadow_rays_follow_beer_and_lambert_through_several_boundaries() {
             sketch.light(Light::Point(PointLight { position, intensity }));
             let scene = sketch.point_seen(DVec3::new(0.0, -6.0, -1.0), DVec3::new(0.0, 0.0, -2.0));
             let expected = 0.5 * f64::FRAC_1_PI * Real::exp(-f64::from(sigma[0]));
-            let found = estimate(&scene, through_media(Some(2), Strategy::Mis), 20_000);
+            let found = estimate(&scene, through_media(Some(2), Strategy::Mis), 100_000);
             // Segments begin beyond each of four walls by a bound of the error of positions, about
             // 1e-6 each: 1e-5 of an optical thickness of 3.
             let allowed = 4.0 * found.error + 3e-5 * expected;
