@@ -37,20 +37,6 @@ const GOLDEN: [Golden<'static>; 4] = [
         relative_mse: 0.039,
         mean_difference: 0.011,
     },
-    Golden {
-        scene: "scenes/effects/cloud.xml",
-        name: "cloud",
-        size: "64x40",
-        relative_mse: 0.021,
-        mean_difference: 0.0054,
-    },
-    Golden {
-        scene: "scenes/effects/fog.xml",
-        name: "fog",
-        size: "64x40",
-        relative_mse: 0.18,
-        mean_difference: 0.023,
-    },
 ];
 
 /// Every scene file under a folder.
