@@ -3,7 +3,7 @@
 
 mod common;
 
-use std::collections::BTreeSet;
+use std::collections::HashSet;
 
 use common::golden::Golden;
 use common::{Folder, repository};
@@ -53,15 +53,15 @@ fn effects(scene: &str, arguments: &[&str]) -> Vec<Value> {
     outcome.json().as_array().expect("a list").clone()
 }
 
-fn names(effects: &[Value], present: bool) -> BTreeSet<&str> {
+fn names(effects: &[Value], present: bool) -> HashSet<&str> {
     let chosen = effects.iter().filter(|effect| effect["present"] == present);
     chosen.map(|effect| effect["effect"].as_str().expect("a name")).collect()
 }
 
 #[test]
 fn every_effect_has_a_scene_that_calls_for_it() {
-    let mut called_for = BTreeSet::new();
-    let mut vocabulary = BTreeSet::new();
+    let mut called_for = HashSet::new();
+    let mut vocabulary = HashSet::new();
     for &(name, ..) in SCENES {
         let effects = effects(&scene(name), &[]);
         let (present, absent) = (names(&effects, true), names(&effects, false));
@@ -79,7 +79,7 @@ fn every_scene_has_a_golden_picture_and_looks_as_it_did() {
     let files = std::fs::read_dir(repository("scenes/effects")).expect("a folder");
     let files = files.map(|file| file.expect("a file").path());
     let scenes = files.filter(|path| path.extension().is_some_and(|e| e == "xml"));
-    let found: BTreeSet<_> = scenes.filter_map(|p| Some(p.file_stem()?.to_owned())).collect();
+    let found: HashSet<_> = scenes.filter_map(|p| Some(p.file_stem()?.to_owned())).collect();
     assert_eq!(found, SCENES.iter().map(|scene| scene.0.into()).collect());
     for &(name, relative_mse, mean_difference) in SCENES {
         let (scene, golden) = (scene(name), format!("effects/{name}"));

@@ -2,7 +2,7 @@
 
 mod common;
 
-use std::collections::BTreeSet;
+use std::collections::HashSet;
 
 use common::Folder;
 use serde_json::Value;
@@ -75,7 +75,7 @@ fn effects_with(scene: &str, arguments: &[&str]) -> Vec<Value> {
 }
 
 /// The names of those for which `what` holds.
-fn names<'a>(effects: &'a [Value], what: &str) -> BTreeSet<&'a str> {
+fn names<'a>(effects: &'a [Value], what: &str) -> HashSet<&'a str> {
     let chosen = effects.iter().filter(|effect| effect[what] == true);
     chosen.map(|effect| effect["effect"].as_str().expect("a name")).collect()
 }
@@ -201,13 +201,13 @@ fn what_is_left_out_is_not_called_for_and_everything_else_is() {
 #[test]
 fn only_some_is_without_all_others() {
     let rest = effects_with(MUCH, &["--only", "indirect-light,area-light,bitmap-texture"]);
-    assert_eq!(names(&rest, "simulated"), BTreeSet::from(["indirect-light", "area-light"]));
+    assert_eq!(names(&rest, "simulated"), HashSet::from(["indirect-light", "area-light"]));
 }
 
 #[test]
 fn leaving_out_what_is_absent_changes_no_bit() {
     let whole = effects(SEEN);
-    let all: BTreeSet<&str> = whole.iter().filter_map(|effect| effect["effect"].as_str()).collect();
+    let all: HashSet<&str> = whole.iter().filter_map(|effect| effect["effect"].as_str()).collect();
     let absent: Vec<&str> = all.difference(&names(&whole, "present")).copied().collect();
     assert!(absent.len() > 2, "{absent:?}");
     assert_eq!(picture(SEEN, &["--without", &absent.join(",")]), picture(SEEN, &[]));
@@ -234,7 +234,7 @@ fn the_price_list_has_every_effect_that_is_simulated() {
     assert_eq!(prices["configuration"], "surfaces");
     assert!(prices["unused_percent"].is_number(), "{prices}");
     let prices = prices["effects"].as_array().expect("a list");
-    let listed: BTreeSet<_> = prices.iter().filter_map(|price| price["effect"].as_str()).collect();
+    let listed: HashSet<_> = prices.iter().filter_map(|price| price["effect"].as_str()).collect();
     assert_eq!(listed, names(&effects(SEEN), "simulated"));
     for price in prices {
         let name = price["effect"].as_str().expect("a name");
