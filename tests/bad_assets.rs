@@ -156,3 +156,38 @@ fn textures_that_cannot_be_decoded_are_named_with_the_place_that_uses_them() {
         textured("sound EXR", 0, &[], "a.exr").file("a.exr", exr()),
     ]);
 }
+
+#[test]
+fn volumes_that_are_wrong_are_refused_with_their_file() {
+    let cloud = ball(
+        r#"<medium type="heterogeneous" name="interior">
+            <volume name="sigma_t" type="gridvolume"><string name="filename" value="a.vol"/></volume>
+        </medium><bsdf type="null"/>"#,
+    );
+    let cloud = format!("<integrator type=\"volpath\"/>{cloud}");
+    // A header of `size` cells along each axis, and eight values.
+    let volume = |size: i32, channels: i32, value: f32| {
+        let mut bytes = b"VOL\x03".to_vec();
+        let integers = [1, size, size, size, channels];
+        bytes.extend(integers.iter().flat_map(|number| number.to_le_bytes()));
+        let corners = [0.0_f32, 0.0, 0.0, 1.0, 1.0, 1.0];
+        let numbers = corners.into_iter().chain([0.5; 7]).chain([value]);
+        bytes.extend(numbers.flat_map(f32::to_le_bytes));
+        bytes
+    };
+    let case = |what, says, bytes: Vec<u8>| Case::scene(what, 3, says, &cloud).file("a.vol", bytes);
+    check([
+        Case::scene("no file", 4, &["a.vol"], &cloud),
+        case("empty file", &["a.vol", "VOL"], Vec::new()),
+        case("another format", &["a.vol", "VOL"], b"v 0 0 0\n".to_vec()),
+        case("another version", &["a.vol", "version"], b"VOL\x02 and so on".repeat(8)),
+        case("cut off", &["a.vol"], volume(3, 1, 0.5)),
+        case("more cells than memory", &["a.vol"], volume(i32::MAX, 1, 0.5)),
+        case("negative size", &["a.vol"], volume(-2, 1, 0.5)),
+        case("two channels", &["a.vol", "channels"], volume(2, 2, 0.5)),
+        case("NaN", &["a.vol"], volume(2, 1, f32::NAN)),
+        case("negative density", &["a.vol"], volume(2, 1, -1.0)),
+        case("thicker than can be sampled", &["sigma_t", "thick"], volume(2, 1, 1e30)),
+        Case::scene("a good one", 0, &[], &cloud).file("a.vol", volume(2, 1, 0.5)),
+    ]);
+}

@@ -13,7 +13,7 @@ pub type Function<T> = (&'static str, fn(&Inputs<T>, &mut Results));
 
 /// Every function, in the order of the crates.
 #[expect(clippy::too_many_lines, reason = "a table, one row per function")]
-pub fn functions<T: Scalar>() -> [Function<T>; 40] {
+pub fn functions<T: Scalar>() -> [Function<T>; 42] {
     // Arguments of elementary functions in [−8, 8) and [0, 16).
     [
         ("sqrt", |i, out| out.number(wide(i.u[0]).sqrt())),
@@ -66,6 +66,13 @@ pub fn functions<T: Scalar>() -> [Function<T>; 40] {
             let cone = warp::cone::Cone::from_one_minus_cos(i.u[2]);
             warped::<T>(out, cone.from_square(pair(i)), |w| cone.to_square(w));
         }),
+        ("henyey_greenstein", |i, out| {
+            let phase = warp::henyey_greenstein::HenyeyGreenstein::<T>::new(i.wo.z());
+            if let Some(phase) = phase {
+                warped::<T>(out, phase.from_square(pair(i)), |w| phase.to_square(w));
+                out.number(phase.pdf(i.wi));
+            }
+        }),
         ("triangle", |i, out| {
             let barycentric = warp::triangle::from_square(pair(i));
             out.numbers(barycentric);
@@ -93,6 +100,12 @@ pub fn functions<T: Scalar>() -> [Function<T>; 40] {
         }),
         ("fresnel conductor", |i, out| {
             out.number(fresnel::conductor(i.wo.z().abs(), wide(i.u[0]), wide(i.u[1])));
+        }),
+        ("dispersion", |i, out| {
+            let wavelength = T::lit(400.0) + T::lit(300.0) * i.u[0];
+            for glass in fresnel::GLASSES {
+                out.number(glass.dispersion.index(wavelength));
+            }
         }),
         ("schlick", |i, out| out.number(fresnel::schlick(i.u[0], i.wo.z().abs()))),
         ("dielectric_average_fit", |i, out| {
