@@ -72,6 +72,10 @@ fn every_effect_has_a_scene_that_calls_for_it() {
         called_for.extend(present.into_iter().map(str::to_owned));
     }
     assert_eq!(called_for, vocabulary);
+    let document = std::fs::read_to_string(repository("docs/effects.md")).expect("a document");
+    for effect in vocabulary {
+        assert!(document.contains(&format!("\n| `{effect}` | ")), "{effect} in docs/effects.md");
+    }
 }
 
 #[test]
