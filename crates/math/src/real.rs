@@ -391,8 +391,8 @@ mod tests {
 
     #[test]
     fn clamping_replaces_nan_by_the_lower_bound() {
-        assert_eq!(f32::NAN.clamp_to(0.0, 1.0), 0.0);
-        assert_eq!(2.0_f64.clamp_to(0.0, 1.0), 1.0);
+        assert_eq!(Real::clamp_to(f32::NAN, 0.0, 1.0), 0.0);
+        assert_eq!(Real::clamp_to(2.0_f64, 0.0, 1.0), 1.0);
     }
 
     #[test]

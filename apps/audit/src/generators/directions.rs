@@ -46,7 +46,10 @@ pub fn pair(stream: u64, index: u64) -> [Vec3<f32>; 2] {
     let other = match kind >> 3 {
         0 => {
             let nearness = Real::powf(10.0, -1.0 - 5.0 * b);
-            [(wo[0] + nearness * (c - 0.5)).clamp_to(-1.0, 1.0), phi + f64::PI + nearness * dphi]
+            [
+                Real::clamp_to(wo[0] + nearness * (c - 0.5), -1.0, 1.0),
+                phi + f64::PI + nearness * dphi,
+            ]
         }
         1 => [cosine(b, (kind >> 1) & 1), phi + (dphi * 4.0).floor() * 0.5 * f64::PI],
         _ => [cosine(b, (kind >> 1) & 1), phi + 2.0 * f64::PI * dphi],

@@ -79,6 +79,6 @@ fn textbook64(wo: Vec3, wi: Vec3) -> f64 {
     textbook!(unit(wo), unit(wi), f64::from(SIGMA), f64, |x: f64| if x.is_nan() {
         0.0
     } else {
-        x.clamp_to(-1.0, 1.0)
+        Real::clamp_to(x, -1.0, 1.0)
     })
 }

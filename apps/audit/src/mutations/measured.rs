@@ -34,8 +34,8 @@ pub(super) const MUTATIONS: &[Mutation] = &[
     Mutation {
         fault: "bins read from their edges: lost half bin",
         file: "crates/brdf/src/measured/merl.rs",
-        find: "let x = (x - 0.5).clamp_to(0.0, last as f64);",
-        replace: "let x = x.clamp_to(0.0, last as f64);",
+        find: "let x = Real::clamp_to(x - 0.5, 0.0, last as f64);",
+        replace: "let x = Real::clamp_to(x, 0.0, last as f64);",
         filters: &["Measured"],
     },
     Mutation {

@@ -27,7 +27,7 @@ pub(super) fn encode(bytes: &mut Vec<u8>, picture: &Image, exposure: f32) -> Enc
 
 /// Linear to 8-bit sRGB, rounded; NaN becomes black.
 fn quantise(linear: f32) -> u8 {
-    (srgb::encode(linear.clamp_to(0.0, 1.0)) * 255.0 + 0.5) as u8
+    (srgb::encode(Real::clamp_to(linear, 0.0, 1.0)) * 255.0 + 0.5) as u8
 }
 
 #[cfg(test)]

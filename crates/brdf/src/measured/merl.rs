@@ -167,7 +167,7 @@ fn ring_coordinate(theta_h: f64) -> f64 {
 /// The two bins up to `last` whose centres surround `x`, and their shares.
 #[inline]
 fn between(x: f64, last: usize) -> [(usize, f64); 2] {
-    let x = (x - 0.5).clamp_to(0.0, last as f64);
+    let x = Real::clamp_to(x - 0.5, 0.0, last as f64);
     let low = (x as usize).min(last);
     let t = x - low as f64;
     [(low, 1.0 - t), ((low + 1).min(last), t)]

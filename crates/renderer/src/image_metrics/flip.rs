@@ -38,8 +38,8 @@ pub const PIXELS_PER_DEGREE: f64 = 0.7 * (3840.0 / 0.7) * core::f64::consts::PI 
 pub fn ldr(image: &Image, reference: &Image) -> Result<Vec<f64>, SizeMismatch> {
     check_sizes(image, reference)?;
     let kernels = Kernels::new(PIXELS_PER_DEGREE);
-    let [image, reference] =
-        [image, reference].map(|picture| Seen::of(picture, |x| x.clamp_to(0.0, 1.0), &kernels));
+    let [image, reference] = [image, reference]
+        .map(|picture| Seen::of(picture, |x| Real::clamp_to(x, 0.0, 1.0), &kernels));
     Ok(differences(&image, &reference))
 }
 
@@ -162,7 +162,7 @@ fn perceived(pixels: &[Opponent], size: [usize; 2], kernels: &Kernels) -> Vec<[f
     (0..pixels.len())
         .map(|i| {
             let seen = Opponent { y: luminance[i], cx: red_green[i], cz: blue_yellow[i] };
-            hunt_lab(linear_of(seen).map(|x| x.clamp_to(0.0, 1.0)))
+            hunt_lab(linear_of(seen).map(|x| Real::clamp_to(x, 0.0, 1.0)))
         })
         .collect()
 }

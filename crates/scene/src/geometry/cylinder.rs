@@ -136,7 +136,7 @@ impl Cylinder {
         let local = self.frame.to_local(hit);
         let ring = Real::sqrt(local.x * local.x + local.y * local.y);
         let (cos, sin) = if ring > 0.0 { (local.x / ring, local.y / ring) } else { (1.0, 0.0) };
-        self.at(cos, sin, local.z.clamp_to(0.0, self.length))
+        self.at(cos, sin, Real::clamp_to(local.z, 0.0, self.length))
     }
 
     fn at(&self, cos: f64, sin: f64, z: f64) -> LocalSurface {
