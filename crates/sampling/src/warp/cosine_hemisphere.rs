@@ -107,6 +107,8 @@ mod tests {
 
     #[test]
     fn polar_map_meets_the_golden_values_in_both_precisions() {
+        // Miri adds up to 4 ε to std's sines on purpose.
+        let roundings = if cfg!(miri) { 7.0 } else { 3.0 };
         for (u, w, pdf_want) in GOLDEN {
             let want = DVec3::from(w);
             let wide = from_square_polar(u);
@@ -116,7 +118,10 @@ mod tests {
             {
                 for (got, want) in got.to_array().into_iter().zip(want.to_array()) {
                     // Relative for each component; the exact zeros of φ = π/2 are printed as 1e-61.
-                    assert!((got - want).abs() <= 3.0 * epsilon * want.abs() + 1e-60, "{u:?}");
+                    assert!(
+                        (got - want).abs() <= roundings * epsilon * want.abs() + 1e-60,
+                        "{u:?}"
+                    );
                 }
             }
             assert!((pdf::<f64>(wide) - pdf_want).abs() <= 2.0 * f64::EPSILON * pdf_want);
