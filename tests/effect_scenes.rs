@@ -5,6 +5,7 @@ mod common;
 
 use std::collections::HashSet;
 
+use common::effects::{list, names};
 use common::golden::Golden;
 use common::{Folder, repository};
 use serde_json::Value;
@@ -45,17 +46,8 @@ fn scene(name: &str) -> String {
 }
 
 /// What `etendue effects` says of a scene.
-fn effects(scene: &str, arguments: &[&str]) -> Vec<Value> {
-    let path = repository(scene);
-    let fixed = ["effects", path.to_str().expect("UTF-8"), "--json"];
-    let outcome = Folder::new().run(&[&fixed, arguments].concat());
-    assert_eq!(outcome.exit, Some(0), "{scene}: {}", outcome.stderr);
-    outcome.json().as_array().expect("a list").clone()
-}
-
-fn names(effects: &[Value], present: bool) -> HashSet<&str> {
-    let chosen = effects.iter().filter(|effect| effect["present"] == present);
-    chosen.map(|effect| effect["effect"].as_str().expect("a name")).collect()
+fn effects(scene: &str) -> Vec<Value> {
+    list(&Folder::new(), repository(scene).to_str().expect("UTF-8"), &[])
 }
 
 #[test]
@@ -63,8 +55,9 @@ fn every_effect_has_a_scene_that_calls_for_it() {
     let mut called_for = HashSet::new();
     let mut vocabulary = HashSet::new();
     for &(name, ..) in SCENES {
-        let effects = effects(&scene(name), &[]);
-        let (present, absent) = (names(&effects, true), names(&effects, false));
+        let effects = effects(&scene(name));
+        let (present, absent) =
+            (names(&effects, "present", true), names(&effects, "present", false));
         vocabulary = present.union(&absent).map(|&effect| effect.to_owned()).collect();
         if vocabulary.contains(name) {
             assert!(present.contains(name), "{name}");
@@ -95,8 +88,8 @@ fn every_scene_has_a_golden_picture_and_looks_as_it_did() {
 #[test]
 fn leaving_out_what_is_absent_changes_no_bit_of_any_scene() {
     for &(name, ..) in SCENES {
-        let (path, effects) = (repository(&scene(name)), effects(&scene(name), &[]));
-        let absent = names(&effects, false).into_iter().collect::<Vec<_>>().join(",");
+        let (path, effects) = (repository(&scene(name)), effects(&scene(name)));
+        let absent = names(&effects, "present", false).into_iter().collect::<Vec<_>>().join(",");
         let folder = Folder::new();
         let options = ["--size", "24x16", "--spp", "8"];
         let whole = folder.render(&path, &options);
@@ -108,7 +101,10 @@ fn leaving_out_what_is_absent_changes_no_bit_of_any_scene() {
 #[test]
 fn leaving_out_the_effect_of_a_scene_changes_its_picture() {
     for &(name, ..) in SCENES {
-        assert!(names(&effects(&scene(name), &[]), true).contains(name), "{name} is no effect");
+        assert!(
+            names(&effects(&scene(name)), "present", true).contains(name),
+            "{name} is no effect"
+        );
         let (path, folder) = (repository(&scene(name)), Folder::new());
         let options = ["--size", "48x32", "--spp", "8"];
         let whole = folder.render(&path, &options);

@@ -5,6 +5,7 @@ mod common;
 use std::collections::HashSet;
 
 use common::Folder;
+use common::effects::{list, names};
 use serde_json::Value;
 
 const NOTHING: &str = r#"<scene version="3.0.0">
@@ -69,15 +70,7 @@ fn effects(scene: &str) -> Vec<Value> {
 fn effects_with(scene: &str, arguments: &[&str]) -> Vec<Value> {
     let folder = Folder::new();
     folder.write("scene.xml", scene);
-    let outcome = folder.run(&[&["effects", "scene.xml", "--json"], arguments].concat());
-    assert_eq!(outcome.exit, Some(0), "{}", outcome.stderr);
-    outcome.json().as_array().expect("a list").clone()
-}
-
-/// The names of those for which `what` holds.
-fn names<'a>(effects: &'a [Value], what: &str) -> HashSet<&'a str> {
-    let chosen = effects.iter().filter(|effect| effect[what] == true);
-    chosen.map(|effect| effect["effect"].as_str().expect("a name")).collect()
+    list(&folder, "scene.xml", arguments)
 }
 
 /// The bytes of a small picture of a scene.
@@ -189,11 +182,11 @@ fn the_text_says_what_is_present_and_what_it_costs() {
 #[test]
 fn what_is_left_out_is_not_called_for_and_everything_else_is() {
     let whole = effects(MUCH);
-    for &effect in &names(&whole, "present") {
+    for &effect in &names(&whole, "present", true) {
         let rest = effects_with(MUCH, &["--without", effect]);
-        let mut expected = names(&whole, "simulated");
+        let mut expected = names(&whole, "simulated", true);
         expected.remove(effect);
-        assert_eq!(names(&rest, "simulated"), expected, "without {effect}");
+        assert_eq!(names(&rest, "simulated", true), expected, "without {effect}");
         assert_eq!(present(&rest), present(&whole), "without {effect}");
     }
 }
@@ -201,14 +194,14 @@ fn what_is_left_out_is_not_called_for_and_everything_else_is() {
 #[test]
 fn only_some_is_without_all_others() {
     let rest = effects_with(MUCH, &["--only", "indirect-light,area-light,bitmap-texture"]);
-    assert_eq!(names(&rest, "simulated"), HashSet::from(["indirect-light", "area-light"]));
+    assert_eq!(names(&rest, "simulated", true), HashSet::from(["indirect-light", "area-light"]));
 }
 
 #[test]
 fn leaving_out_what_is_absent_changes_no_bit() {
     let whole = effects(SEEN);
     let all: HashSet<&str> = whole.iter().filter_map(|effect| effect["effect"].as_str()).collect();
-    let absent: Vec<&str> = all.difference(&names(&whole, "present")).copied().collect();
+    let absent: Vec<&str> = all.difference(&names(&whole, "present", true)).copied().collect();
     assert!(absent.len() > 2, "{absent:?}");
     assert_eq!(picture(SEEN, &["--without", &absent.join(",")]), picture(SEEN, &[]));
     assert_ne!(picture(SEEN, &["--without", "delta-reflection"]), picture(SEEN, &[]));
@@ -235,7 +228,7 @@ fn the_price_list_has_every_effect_that_is_simulated() {
     assert!(prices["unused_percent"].is_number(), "{prices}");
     let prices = prices["effects"].as_array().expect("a list");
     let listed: HashSet<_> = prices.iter().filter_map(|price| price["effect"].as_str()).collect();
-    assert_eq!(listed, names(&effects(SEEN), "simulated"));
+    assert_eq!(listed, names(&effects(SEEN), "simulated", true));
     for price in prices {
         let name = price["effect"].as_str().expect("a name");
         assert!(price["seconds_without"].as_f64().is_some_and(|s| s > 0.0), "{price}");

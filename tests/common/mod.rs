@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 pub(crate) mod case;
+pub(crate) mod effects;
 pub(crate) mod golden;
 pub(crate) mod picture;
 

@@ -4,6 +4,7 @@ use std::fmt;
 use std::path::Path;
 use std::process::ExitCode;
 
+use etendue_renderer::ThreadError;
 use etendue_scene::{ErrorKind, SceneError};
 
 /// The exit codes of every étendue command.
@@ -62,6 +63,12 @@ impl Failure {
 impl fmt::Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.message)
+    }
+}
+
+impl From<ThreadError> for Failure {
+    fn from(error: ThreadError) -> Self {
+        Self::new(Exit::Resource, error.to_string())
     }
 }
 

@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use signal_hook::consts::{SIGINT, SIGTERM};
 use signal_hook::flag;
 
-use crate::failure::Exit;
+use crate::failure::{Exit, Failure};
 
 /// Flags that the signal handlers set.
 #[derive(Clone, Debug)]
@@ -18,7 +18,12 @@ pub(crate) struct Interrupt {
 
 impl Interrupt {
     /// Installs the handlers.
-    pub(crate) fn install() -> io::Result<Self> {
+    pub(crate) fn install() -> Result<Self, Failure> {
+        Self::try_install()
+            .map_err(|e| Failure::new(Exit::Internal, format!("cannot handle signals: {e}")))
+    }
+
+    fn try_install() -> io::Result<Self> {
         let interrupt = Self { requested: Arc::default(), signal: Arc::default() };
         for signal in [SIGINT, SIGTERM] {
             // Handlers run in this order: a second signal finds the flag set and ends the process.

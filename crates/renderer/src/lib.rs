@@ -72,10 +72,10 @@ mod settings;
 mod statistics;
 mod tile;
 
+pub use configuration::Configuration;
 pub use features::Features;
 pub use film::{FilmSample, FilterSampler, Image, PixelFilter, PixelSum};
 pub use light_sampler::{LightChoice, LightSampler, Receiver, Sides};
-pub use path::Configuration;
 pub use render::{Progress, Renderer, Rendering, ThreadError};
 pub use settings::{RenderSettings, Strategy};
 pub use statistics::{NonFiniteSamples, RayCounts, SampleAddress, Statistics};

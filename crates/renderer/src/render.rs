@@ -10,10 +10,10 @@ use etendue_scene::geometry::{Ray, Rays, Task};
 use etendue_scene::material::PreparedMaterials;
 use etendue_scene::{Color, Scene};
 
-use crate::configuration::Configured;
+use crate::configuration::{Configuration, Configured};
 use crate::film::{FilterSampler, Image, PixelFilter, PixelSum};
 use crate::light_sampler::LightSampler;
-use crate::path::{Configuration, PathTracer, Transport};
+use crate::path::{PathTracer, Transport};
 use crate::settings::RenderSettings;
 use crate::statistics::{RayCounts, SampleAddress, Statistics};
 use crate::tile::Tile;

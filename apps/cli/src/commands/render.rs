@@ -130,8 +130,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     if !arguments.aov.is_empty() {
         output.check_layers()?;
     }
-    let interrupt = Interrupt::install()
-        .map_err(|e| Failure::new(Exit::Internal, format!("cannot handle signals: {e}")))?;
+    let interrupt = Interrupt::install()?;
     let start = Instant::now();
     let loaded = load(&arguments.scene.scene, &arguments.load_options())?;
     let scene = arguments.selection.select(loaded.scene);

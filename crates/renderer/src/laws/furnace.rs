@@ -1,10 +1,7 @@
 //! In light that is the same everywhere, surfaces that absorb nothing are invisible.
 
-use etendue_brdf::Ior;
-use etendue_math::Spectrum;
 use etendue_math::glam::DVec3;
-use etendue_scene::material::Material;
-use etendue_scene::{Color, Scene};
+use etendue_scene::Scene;
 
 use super::scenes::{Sketch, estimate, rectangle, settings, sphere};
 use crate::{RenderSettings, Renderer, Strategy};
@@ -22,13 +19,7 @@ fn white_spheres() -> Scene {
 
 fn glass_sphere() -> Scene {
     let mut sketch = Sketch::default();
-    let white = sketch.textures.constant(Color::white());
-    let glass = sketch.material(Material::Dielectric {
-        eta: Ior::new(1.5).expect("an index"),
-        roughness: None,
-        specular_reflectance: white,
-        specular_transmittance: white,
-    });
+    let glass = sketch.glass();
     sketch.shape(sphere(DVec3::ZERO, 1.0), glass);
     sketch.sky(1.0);
     sketch.seen(DVec3::new(0.0, -4.0, 1.0), DVec3::ZERO, 40.0, [8, 8])

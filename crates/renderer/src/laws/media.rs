@@ -2,7 +2,6 @@
 
 use core::sync::atomic::AtomicBool;
 
-use etendue_brdf::Ior;
 use etendue_math::glam::{DVec3, Vec3};
 use etendue_math::quadrature::Adaptive;
 use etendue_math::{Real, Spectrum};
@@ -118,13 +117,7 @@ fn media_that_absorb_nothing_are_invisible_in_even_light() {
 #[test]
 fn a_medium_behind_glass_is_invisible_in_even_light() {
     let mut sketch = Sketch::default();
-    let white = sketch.textures.constant(Color::white());
-    let glass = sketch.material(Material::Dielectric {
-        eta: Ior::new(1.5).expect("an index"),
-        roughness: None,
-        specular_reflectance: white,
-        specular_transmittance: white,
-    });
+    let glass = sketch.glass();
     let milk = Medium { samples_lights: false, ..homogeneous([3.0; 3], 1.0, forwards(0.3)) };
     let medium = sketch.medium(milk);
     sketch.filled(sphere(DVec3::ZERO, 1.0), glass, medium);

@@ -1,6 +1,6 @@
 //! Small scenes, and estimates with error bars.
 
-use etendue_brdf::{Distribution, Masking};
+use etendue_brdf::{Distribution, Ior, Masking};
 use etendue_math::glam::DVec3;
 use etendue_math::{Real, Spectrum};
 use etendue_scene::camera::{Camera, FieldOfView, FovAxis, Projection};
@@ -34,6 +34,17 @@ impl Sketch {
 
     pub(super) fn material(&mut self, material: Material) -> MaterialId {
         self.materials.add(material).expect("textures and materials exist")
+    }
+
+    /// Smooth glass of index 1.5.
+    pub(super) fn glass(&mut self) -> MaterialId {
+        let white = self.textures.constant(Color::white());
+        self.material(Material::Dielectric {
+            eta: Ior::new(1.5).expect("an index"),
+            roughness: None,
+            specular_reflectance: white,
+            specular_transmittance: white,
+        })
     }
 
     /// GGX facets of width `alpha`, each of which reflects everything.

@@ -11,7 +11,7 @@ use etendue_scene::scene::SamplerKind;
 use etendue_scene::{Color, LoadOptions, Scene, load_scene};
 
 use super::scenes::{Sketch, lamp_over_sphere, settings, sphere};
-use crate::path::Configuration;
+use crate::configuration::Configuration;
 use crate::progressive::{Goal, Halt};
 use crate::{RenderSettings, Renderer, Strategy};
 

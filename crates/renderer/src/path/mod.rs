@@ -23,7 +23,6 @@ use crate::settings::Strategy;
 use crate::statistics::RayCounts;
 
 pub(crate) use first_hit::FirstHit;
-pub use transport::Configuration;
 pub(crate) use transport::{Surfaces, Transport, Volumes};
 
 /// Solves the rendering equation for one ray at a time.

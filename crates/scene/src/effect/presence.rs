@@ -3,8 +3,6 @@
 use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
 
-use etendue_math::Spectrum;
-
 use super::Effect;
 use super::causes::{of_light, of_lobes, of_medium, of_surface, of_texture};
 use crate::Scene;
@@ -78,13 +76,11 @@ impl Scene {
         let materials = self.materials.with_parts(self.surfaces.iter().map(|s| s.material));
         for &id in &materials {
             let Some(mut material) = self.materials.get(id).cloned() else { continue };
-            let black = |factor: TextureId| {
-                self.textures.is_constant(factor) && self.textures.mean(factor).is_black()
-            };
-            let lobes = of_lobes(&mut material).filter(|(_, factor)| !black(**factor));
-            let effects: Vec<Effect> = lobes.map(|(effect, _)| effect).collect();
-            let effects = effects.into_iter().chain(of_surface(&material));
-            causes.extend(effects.map(|effect| (effect, Element::Material(id))));
+            let element = Element::Material(id);
+            causes.extend(of_surface(&material).map(|effect| (effect, element)));
+            let lobes = of_lobes(&mut material);
+            let lobes = lobes.filter(|(_, factor)| !self.textures.is_black(**factor));
+            causes.extend(lobes.map(|(effect, _)| (effect, element)));
         }
         let of_materials = materials.iter().filter_map(|&id| self.materials.get(id));
         let textures = of_materials.flat_map(Material::textures);

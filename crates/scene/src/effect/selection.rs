@@ -20,7 +20,7 @@ impl Scene {
     /// * reflection and transmission: the lobe is black, and a surface that has no other one is black altogether;
     /// * principled materials are diffuse; surfaces with opacity masks are whole, those that let light pass are black;
     ///   of two that are blended the heavier one is there; normals are those of the shape;
-    /// * textures: their mean is everywhere;
+    /// * textures: their mean is everywhere, or 1 times the scale of a mesh attribute;
     /// * media are not there, take as much of every colour, scatter evenly;
     /// * instances are not there, everything is in focus, emitters are seen, normals need not agree.
     ///

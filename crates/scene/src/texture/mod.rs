@@ -210,6 +210,11 @@ impl Textures {
         self.entries.get(id.0 as usize).map_or(Color::black(), |entry| entry.max)
     }
 
+    /// Whether the texture is black everywhere, being constant.
+    pub(crate) fn is_black(&self, id: TextureId) -> bool {
+        self.is_constant(id) && self.mean(id).is_black()
+    }
+
     /// Whether the texture is a [`Texture::Constant`].
     pub fn is_constant(&self, id: TextureId) -> bool {
         matches!(self.get(id), Some(Texture::Constant(_)))

@@ -59,8 +59,7 @@ const USUAL_SIDE: u32 = 96;
 
 pub(crate) fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     let files = arguments.files.check(PART)?;
-    let interrupt = Interrupt::install()
-        .map_err(|e| Failure::new(Exit::Internal, format!("cannot handle signals: {e}")))?;
+    let interrupt = Interrupt::install()?;
     let reference = arguments.reference.as_deref().map(read).transpose()?;
     let options = arguments.load_options(reference.as_ref())?;
     let path = &arguments.scene.scene;

@@ -24,8 +24,7 @@ pub(super) fn run(
     effects: &BTreeSet<Effect>,
 ) -> Result<Exit, Failure> {
     let pictures = pictures(arguments.pictures.as_deref(), effects)?;
-    let interrupt = Interrupt::install()
-        .map_err(|e| Failure::new(Exit::Internal, format!("cannot handle signals: {e}")))?;
+    let interrupt = Interrupt::install()?;
     let display = ProgressDisplay::new("measuring", arguments.quiet);
     let mut table = Table::new([
         ("effect", "effect"),
@@ -140,9 +139,8 @@ impl Pair {
     }
 }
 
-fn prepare(scene: &Scene) -> Result<Renderer<'_>, Failure> {
+fn prepare(scene: &Scene) -> Result<Renderer<'_>, ThreadError> {
     Renderer::new(scene, RenderSettings::of_scene(scene))
-        .map_err(|error: ThreadError| Failure::new(Exit::Resource, error.to_string()))
 }
 
 /// A picture and the seconds that it took.

@@ -7,7 +7,7 @@ use etendue_renderer::{Configuration, Image, RenderSettings, Renderer, Statistic
 use etendue_scene::Scene;
 
 use super::task::{Method, Task};
-use crate::failure::{Exit, Failure};
+use crate::failure::Failure;
 use crate::interrupt::Interrupt;
 use crate::output::{Aov, Channel, Sources};
 use crate::progress::{ProgressDisplay, Standing};
@@ -44,8 +44,7 @@ pub(super) struct Accuracy {
 pub(super) fn draw(task: &Task, scene: &Scene, interrupt: &Interrupt) -> Result<Drawing, Failure> {
     let start = Instant::now();
     let settings = RenderSettings { threads: task.threads, ..RenderSettings::of_scene(scene) };
-    let renderer =
-        Renderer::new(scene, settings).map_err(|e| Failure::new(Exit::Resource, e.to_string()))?;
+    let renderer = Renderer::new(scene, settings)?;
     let seen = |aov: &Aov| !aov.is_of_samples();
     let features = if task.layers.iter().any(seen) {
         renderer.features(task.feature_samples, interrupt.flag())

@@ -9,7 +9,7 @@ use super::super::Context;
 use super::super::reader::PluginReader;
 use super::super::value::{Role, texture_or};
 use crate::material::{Material, MaterialId, PrincipledTextures, PrincipledThinTextures};
-use crate::texture::{Texture, TextureId};
+use crate::texture::TextureId;
 use crate::{Color, SceneError};
 
 /// Disney's material: `base_color` and `roughness` (0.5), `anisotropic`, `metallic`, `spec_trans`, `spec_tint`,
@@ -82,9 +82,7 @@ fn if_not_zero<'a>(
     name: &'static str,
 ) -> Result<Option<TextureId>, SceneError> {
     let texture = texture_or(reader, context, name, Role::Reflectance, 0.0)?;
-    let is_zero = matches!(context.textures.get(texture),
-        Some(Texture::Constant(color)) if *color == Color::new(0.0, 0.0, 0.0));
-    Ok((!is_zero).then_some(texture))
+    Ok((!context.textures.is_black(texture)).then_some(texture))
 }
 
 /// The relative index, by itself or by `specular`, of which Mitsuba takes 0 for 0.001 where light is let through.

@@ -1,0 +1,129 @@
+//! Materials and what they are made of.
+
+use super::*;
+
+#[test]
+fn every_bsdf_is_translated() {
+    let is = |bsdf: &str, expected: fn(&Material) -> bool| {
+        let (material, _) = material(bsdf);
+        assert!(expected(&material), "{bsdf}: {material:?}");
+    };
+    is("<bsdf type=\"diffuse\"/>", |m| matches!(m, Material::Diffuse { .. }));
+    is("<bsdf type=\"roughdiffuse\"/>", |m| matches!(m, Material::RoughDiffuse { .. }));
+    is("<bsdf type=\"dielectric\"/>", |m| {
+        matches!(m, Material::Dielectric { eta, roughness: None, .. }
+            if (eta.value() - 1.5046 / 1.000277).abs() < 1e-6)
+    });
+    is("<bsdf type=\"thindielectric\"/>", |m| matches!(m, Material::ThinDielectric { .. }));
+    is("<bsdf type=\"roughdielectric\"/>", |m| {
+        matches!(m, Material::Dielectric { roughness: Some(_), .. })
+    });
+    is("<bsdf type=\"conductor\"/>", |m| {
+        matches!(m, Material::Conductor { index: ConductorIndex::Mirror, roughness: None, .. })
+    });
+    is("<bsdf type=\"plastic\"/>", |m| matches!(m, Material::Plastic { .. }));
+    is("<bsdf type=\"roughplastic\"/>", |m| matches!(m, Material::Plastic { .. }));
+    is("<bsdf type=\"principledthin\"/>", |m| matches!(m, Material::PrincipledThin(_)));
+    is("<bsdf type=\"mask\"><bsdf type=\"diffuse\"/></bsdf>", |m| {
+        matches!(m, Material::Mask { .. })
+    });
+    is(
+        "<bsdf type=\"twosided\"><bsdf type=\"diffuse\"/></bsdf>",
+        |m| matches!(m, Material::TwoSided { front, back } if front == back),
+    );
+    is(
+        "<bsdf type=\"blendbsdf\"><bsdf type=\"diffuse\"/><bsdf type=\"plastic\"/></bsdf>",
+        |m| matches!(m, Material::Blend { parts: [a, b], .. } if a < b),
+    );
+    is(
+        "<bsdf type=\"normalmap\"><rgb name=\"normalmap\" value=\"0.5 0.5 1\"/>\
+         <boolean name=\"flip_invalid_normals\" value=\"false\"/><bsdf type=\"diffuse\"/></bsdf>",
+        |m| {
+            matches!(m, Material::NormalMap { options, .. }
+                if !options.flip_invalid_normals && options.use_shadowing_function)
+        },
+    );
+    is("<bsdf type=\"null\"/>", |m| matches!(m, Material::Null));
+}
+
+#[test]
+fn named_conductors_have_mitsubas_indices() {
+    let bsdf = "<bsdf type=\"roughconductor\"><string name=\"material\" value=\"Au\"/>\
+                <float name=\"alpha_u\" value=\"0.1\"/><float name=\"alpha_v\" value=\"0.3\"/></bsdf>";
+    let (material, loaded) = material(bsdf);
+    let Material::Conductor { index: ConductorIndex::Complex { eta, .. }, roughness, .. } =
+        material
+    else {
+        panic!("{material:?}")
+    };
+    let textures = &loaded.scene.textures;
+    // mi.traverse(mi.load_dict({'type': 'conductor', 'material': 'Au'})), to six digits.
+    assert_eq!(textures.mean(eta).to_array(), [0.143036, 0.375307, 1.44205]);
+    let roughness = roughness.expect("a rough conductor");
+    assert_eq!(textures.value(roughness.alpha_u, [0.0; 2]), 0.1);
+    assert_eq!(textures.value(roughness.alpha_v, [0.0; 2]), 0.3);
+}
+
+#[test]
+fn principled_materials_have_an_index_by_either_name_and_transmit_only_on_demand() {
+    let principled = |parameters: &str| {
+        let bsdf = format!("<bsdf type=\"principled\">{parameters}</bsdf>");
+        match material(&bsdf).0 {
+            Material::Principled(textures) => *textures,
+            other => panic!("{other:?}"),
+        }
+    };
+    let plain = principled("");
+    // (1 + √0.04)/(1 − √0.04) = 1.5, to the rounding of f32.
+    assert!((plain.eta.value() - 1.5).abs() < 1e-6 && plain.spec_trans.is_none());
+    let glass = principled(
+        "<float name=\"eta\" value=\"1.3\"/><float name=\"spec_trans\" value=\"0.5\"/>\
+         <float name=\"clearcoat_sampling_rate\" value=\"0.25\"/>",
+    );
+    assert!(glass.eta.value() == 1.3 && glass.spec_trans.is_some());
+    assert_eq!(glass.sampling_rates, [1.0, 1.0, 0.25]);
+    let zero = "<float name=\"specular\" value=\"0\"/>";
+    assert_eq!(principled(zero).eta.value(), 1.0);
+    let through = principled(&format!("{zero}<float name=\"spec_trans\" value=\"1\"/>"));
+    assert!(through.eta.value() > 1.018);
+    let both = "<bsdf type=\"principled\"><float name=\"eta\" value=\"1.3\"/>\n\
+                <float name=\"specular\" value=\"0.5\"/></bsdf>";
+    refused(both, 3, "either “eta” or “specular”");
+    let two_sided = "<bsdf type=\"twosided\"><bsdf type=\"principled\">\
+                     <float name=\"spec_trans\" value=\"1\"/></bsdf></bsdf>";
+    refused(two_sided, 2, "only an opaque material");
+}
+
+#[test]
+fn materials_around_others_say_what_they_lack() {
+    let bsdf = |plugin: &str, inner: &str| format!("<bsdf type=\"{plugin}\">\n{inner}</bsdf>");
+    let diffuse = "<bsdf type=\"diffuse\"/>";
+    refused(&bsdf("blendbsdf", diffuse), 2, "a blend needs two bsdfs");
+    refused(&bsdf("normalmap", diffuse), 2, "no texture “normalmap”");
+    refused(&bsdf("bumpmap", diffuse), 2, "the bump map has no texture inside");
+    refused(&bsdf("mask", ""), 2, "bsdf “mask” has no bsdf inside");
+    let board = "<texture type=\"checkerboard\" name=\"height\"/>";
+    refused(&bsdf("bumpmap", &format!("{board}{diffuse}")), 3, "must be a bitmap");
+    let glass = bsdf("blendbsdf", &format!("{diffuse}<bsdf type=\"dielectric\"/>"));
+    refused(&bsdf("twosided", &glass), 2, "only an opaque material");
+}
+
+#[test]
+fn attributes_are_looked_up_on_the_meshes_that_have_them() {
+    let bsdf = "<bsdf type=\"diffuse\"><texture type=\"mesh_attribute\" name=\"reflectance\">\
+                <string name=\"name\" value=\"vertex_color\"/></texture></bsdf>";
+    refused(
+        &format!("<bsdf type=\"null\"/>\n<shape type=\"sphere\">{bsdf}</shape>"),
+        3,
+        "shape “sphere” has no attribute “vertex_color”",
+    );
+    let lamp = |name| {
+        format!(
+            "<shape type=\"sphere\"><emitter type=\"area\">\n\
+             <texture type=\"mesh_attribute\" name=\"radiance\">\
+             <string name=\"name\" value=\"{name}\"/></texture></emitter></shape>"
+        )
+    };
+    refused(&lamp("vertex_color"), 3, "“radiance” cannot be an attribute of a mesh");
+    refused(&lamp("color"), 3, "begins with neither “vertex_” nor “face_”");
+}
