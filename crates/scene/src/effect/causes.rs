@@ -2,7 +2,7 @@
 
 use super::Effect;
 use crate::light::Light;
-use crate::material::{Material, PlasticSurface};
+use crate::material::{Material, MultipleScattering, PlasticSurface};
 use crate::medium::{Extinction, Medium, Phase};
 use crate::texture::{Texture, TextureId};
 
@@ -63,6 +63,17 @@ pub(super) fn of_lobes(material: &mut Material) -> impl Iterator<Item = (Effect,
     };
     let reflected = reflected.map(|factor| (reflection, factor));
     reflected.into_iter().chain(transmitted.map(|factor| (transmission, factor)))
+}
+
+/// Whether a material brings back what its facets scatter more than once, where it has facets.
+pub(super) fn multiple_scattering(material: &mut Material) -> Option<&mut MultipleScattering> {
+    match material {
+        Material::Dielectric { roughness: Some(roughness), .. }
+        | Material::Conductor { roughness: Some(roughness), .. } => {
+            Some(&mut roughness.multiple_scattering)
+        }
+        _ => None,
+    }
 }
 
 /// The effect that a material is as a whole.

@@ -3,6 +3,7 @@
 //! A [`Material`] names textures; [`Materials::prepare`] looks them up at one point and gives the
 //! reflection model there, a [`PreparedBsdf`].
 
+mod compensated;
 mod composed;
 mod dispersive;
 mod model;
@@ -22,6 +23,7 @@ use etendue_brdf::{
     TransmittanceTable,
 };
 
+pub use compensated::{Compensated, Glass, Metal, MultipleScattering};
 pub use composed::Composed;
 pub use dispersive::{Dispersed, Dispersive, RelativeDispersion};
 pub use model::{Model, PrincipledModel, PrincipledThinModel};
@@ -167,6 +169,8 @@ pub struct Roughness {
     pub alpha_u: TextureId,
     /// Width α along ∂p/∂v.
     pub alpha_v: TextureId,
+    /// Whether light that they scatter more than once is there.
+    pub multiple_scattering: MultipleScattering,
 }
 
 /// The index of refraction of a metal relative to what surrounds it.

@@ -13,8 +13,8 @@ use super::model::{PrincipledModel, PrincipledThinModel};
 use super::perturbed::Perturbed;
 use super::prepared::Placed;
 use super::{
-    ConductorIndex, Dispersive, Material, MaterialId, Materials, Model, OrenNayarForm,
-    PlasticSurface, PreparedBsdf, Roughness, Side,
+    Compensated, ConductorIndex, Dispersive, Glass, Material, MaterialId, Materials, Metal, Model,
+    MultipleScattering, OrenNayarForm, PlasticSurface, PreparedBsdf, Roughness, Side,
 };
 use crate::color::Channels;
 use crate::geometry::SurfacePoint;
@@ -77,7 +77,12 @@ impl<'a, C: Channels> At<'a, C> {
 
     #[inline]
     fn facets(self, roughness: &Roughness) -> Microfacets<f32> {
-        let alpha = |id| Alpha::clamped(self.value(id).max(LEAST_ALPHA));
+        let widest = match roughness.multiple_scattering {
+            MultipleScattering::Lost => f32::INFINITY,
+            // As far as tables go.
+            MultipleScattering::KullaConty | MultipleScattering::Turquin => 1.0,
+        };
+        let alpha = |id| Alpha::clamped(self.value(id).max(LEAST_ALPHA).min(widest));
         let (u, v) = (alpha(roughness.alpha_u), alpha(roughness.alpha_v));
         Microfacets::new(roughness.distribution, u, v, roughness.masking)
     }
@@ -161,7 +166,16 @@ fn model<'a, C: Channels>(material: Option<&'a Material>, at: At<'a, C>) -> Mode
             }
             let smooth = SmoothDielectric::new(eta).with_factors(ks, kt);
             let Some(roughness) = roughness else { return Model::SmoothDielectric(smooth) };
-            match RoughDielectric::new(eta, at.facets(roughness)) {
+            let facets = at.facets(roughness);
+            if roughness.multiple_scattering != MultipleScattering::Lost {
+                let (specular_reflectance, specular_transmittance) = (ks, kt);
+                let glass = Glass { eta, facets, specular_reflectance, specular_transmittance };
+                let compensated = Compensated::KullaContyGlass(glass);
+                if compensated.is_possible() {
+                    return Model::Compensated(compensated);
+                }
+            }
+            match RoughDielectric::new(eta, facets) {
                 Ok(rough) => Model::RoughDielectric(rough.with_factors(ks, kt)),
                 // Refused for equal indices only: no facet refracts, whatever its normal.
                 Err(_) => Model::SmoothDielectric(smooth),
@@ -178,9 +192,21 @@ fn model<'a, C: Channels>(material: Option<&'a Material>, at: At<'a, C>) -> Mode
                 None => {
                     Model::SmoothConductor(SmoothConductor::new(ior).with_specular_reflectance(ks))
                 }
-                Some(roughness) => Model::RoughConductor(
-                    RoughConductor::new(ior, at.facets(roughness)).with_specular_reflectance(ks),
-                ),
+                Some(roughness) => {
+                    let facets = at.facets(roughness);
+                    let metal = Metal { ior, facets, specular_reflectance: ks };
+                    let compensated = match roughness.multiple_scattering {
+                        MultipleScattering::Lost => None,
+                        MultipleScattering::KullaConty => Some(Compensated::KullaContyMetal(metal)),
+                        MultipleScattering::Turquin => Some(Compensated::TurquinMetal(metal)),
+                    };
+                    match compensated.filter(Compensated::is_possible) {
+                        Some(compensated) => Model::Compensated(compensated),
+                        None => Model::RoughConductor(
+                            RoughConductor::new(ior, facets).with_specular_reflectance(ks),
+                        ),
+                    }
+                }
             }
         }
         Material::Plastic {

@@ -4,7 +4,7 @@ use crate::color::Primaries;
 use crate::texture::Textures;
 use etendue_brdf::{BeckmannLambda, Bsdf, Density};
 use etendue_math::glam::Vec3;
-use etendue_math::{Real, Spectrum};
+use etendue_math::{Real, Spectrum, hash_u32};
 
 struct Studio {
     textures: Textures,
@@ -49,6 +49,7 @@ fn every_kind(s: &mut Studio) -> Vec<MaterialId> {
         masking: Masking::Separable,
         alpha_u: tenth,
         alpha_v: half,
+        multiple_scattering: MultipleScattering::Lost,
     };
     let plastic = |surface| Material::Plastic {
         surface,
@@ -212,6 +213,7 @@ fn values_outside_their_domain_are_moved_into_it() {
         masking: Masking::HeightCorrelated,
         alpha_u: zero,
         alpha_v: zero,
+        multiple_scattering: MultipleScattering::Lost,
     };
     let mirror = s.add(Material::Conductor {
         index: ConductorIndex::Mirror,
@@ -233,6 +235,7 @@ fn equal_indices_are_invisible_even_when_rough() {
         masking: Masking::HeightCorrelated,
         alpha_u: tenth,
         alpha_v: tenth,
+        multiple_scattering: MultipleScattering::Lost,
     };
     let air = s.add(Material::Dielectric {
         eta: Ior::new(1.0).expect("an index"),
@@ -315,4 +318,54 @@ fn bumps_are_the_normal_of_their_slope() {
     assert!((eval(bumpy) - eval(nested)).abs() > 0.01);
     let refused = s.materials.add(Material::NormalMap { normal, options, nested: bumpy });
     assert_eq!(refused.err(), Some(MaterialError::NestedBumps));
+}
+
+#[test]
+fn compensation_brings_back_what_facets_lose() {
+    // Tables are good to a few thousandths, Turquin's factor and 4096 samples to two hundredths.
+    let mut s = Studio::new();
+    let (white, alpha) = (s.grey(1.0), s.grey(0.9));
+    let roughness = |multiple_scattering| Roughness {
+        distribution: Distribution::Ggx,
+        masking: Masking::HeightCorrelated,
+        alpha_u: alpha,
+        alpha_v: alpha,
+        multiple_scattering,
+    };
+    let mut albedo = |material| {
+        let id = s.add(material);
+        let bsdf = s.at(id, Vec3::Z);
+        let mut sum = 0.0;
+        for i in 0..4096_u16 {
+            let uniform = |k| (hash_u32(3 * u32::from(i) + k) >> 8) as f32 / 16_777_216.0;
+            let sample = bsdf.sample(Vec3::Z, uniform(0), [uniform(1), uniform(2)]);
+            // In flux: light that is refracted takes its radiance along by η².
+            sum += sample.map_or(0.0, |s| s.weight.g * s.eta * s.eta) / 4096.0;
+        }
+        sum
+    };
+    for (multiple, least, most) in [
+        (MultipleScattering::Lost, 0.3, 0.45),
+        (MultipleScattering::KullaConty, 0.97, 1.03),
+        (MultipleScattering::Turquin, 0.97, 1.03),
+    ] {
+        let found = albedo(Material::Conductor {
+            index: ConductorIndex::Mirror,
+            roughness: Some(roughness(multiple)),
+            specular_reflectance: white,
+        });
+        assert!((least..most).contains(&found), "{multiple:?}: {found}");
+    }
+    for (multiple, least, most) in
+        [(MultipleScattering::Lost, 0.7, 0.97), (MultipleScattering::KullaConty, 0.97, 1.03)]
+    {
+        let found = albedo(Material::Dielectric {
+            eta: Ior::new(1.5).expect("an index"),
+            dispersion: None,
+            roughness: Some(roughness(multiple)),
+            specular_reflectance: white,
+            specular_transmittance: white,
+        });
+        assert!((least..most).contains(&found), "{multiple:?}: {found}");
+    }
 }
