@@ -241,7 +241,7 @@ fn compensation_without_tables_is_refused() {
         material(
             "Turquin's glass",
             3,
-            &["scene.xml:6:1", "“turquin” is for metals"],
+            &["scene.xml:6:1", "“multiple_scattering”", "kulla-conty"],
             &rough("roughdielectric", "turquin\"/><string name=\"distribution\" value=\"ggx\"/>"),
         ),
         material(

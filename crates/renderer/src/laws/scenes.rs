@@ -9,8 +9,7 @@ use etendue_scene::film::{Film, ReconstructionFilter};
 use etendue_scene::geometry::{GeometryBuilder, Rectangle, Shape, Sphere, Transform};
 use etendue_scene::light::{AreaLight, ConstantLight, Light, LightId};
 use etendue_scene::material::{
-    ConductorIndex, Material, MaterialId, Materials, MultipleScattering, RelativeDispersion,
-    Roughness,
+    ConductorIndex, Material, MaterialId, Materials, RelativeDispersion, Roughness,
 };
 use etendue_scene::medium::{Boundary, Media, Medium, MediumId};
 use etendue_scene::scene::{PathSettings, SamplerKind, SamplingSettings, SceneParts, SurfaceInfo};
@@ -71,7 +70,6 @@ impl Sketch {
             masking: Masking::HeightCorrelated,
             alpha_u: alpha,
             alpha_v: alpha,
-            multiple_scattering: MultipleScattering::Lost,
         }
     }
 

@@ -2,7 +2,7 @@
 
 use super::Effect;
 use crate::light::Light;
-use crate::material::{Material, MultipleScattering, PlasticSurface};
+use crate::material::{Material, PlasticSurface};
 use crate::medium::{Extinction, Medium, Phase};
 use crate::texture::{Texture, TextureId};
 
@@ -54,6 +54,7 @@ pub(super) fn of_lobes(material: &mut Material) -> impl Iterator<Item = (Effect,
         Material::PrincipledThin(textures) => (ROUGH, None, textures.spec_trans.as_mut()),
         Material::Diffuse { .. }
         | Material::RoughDiffuse { .. }
+        | Material::Compensated { .. }
         | Material::TwoSided { .. }
         | Material::Mask { .. }
         | Material::Blend { .. }
@@ -65,21 +66,11 @@ pub(super) fn of_lobes(material: &mut Material) -> impl Iterator<Item = (Effect,
     reflected.into_iter().chain(transmitted.map(|factor| (transmission, factor)))
 }
 
-/// Whether a material brings back what its facets scatter more than once, where it has facets.
-pub(super) fn multiple_scattering(material: &mut Material) -> Option<&mut MultipleScattering> {
-    match material {
-        Material::Dielectric { roughness: Some(roughness), .. }
-        | Material::Conductor { roughness: Some(roughness), .. } => {
-            Some(&mut roughness.multiple_scattering)
-        }
-        _ => None,
-    }
-}
-
 /// The effect that a material is as a whole.
 pub(super) fn of_surface(material: &Material) -> Option<Effect> {
     match material {
         Material::Principled(_) | Material::PrincipledThin(_) => Some(Effect::Principled),
+        Material::Compensated { .. } => Some(Effect::MultipleScattering),
         Material::Mask { .. } => Some(Effect::OpacityMask),
         Material::Blend { .. } => Some(Effect::Blend),
         Material::NormalMap { .. } => Some(Effect::NormalMap),

@@ -4,10 +4,10 @@ use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
 
 use super::Effect;
-use super::causes::{multiple_scattering, of_light, of_lobes, of_medium, of_surface, of_texture};
+use super::causes::{of_light, of_lobes, of_medium, of_surface, of_texture};
 use crate::Scene;
 use crate::light::{Light, LightId};
-use crate::material::{Material, MaterialId, MultipleScattering};
+use crate::material::{Material, MaterialId};
 use crate::medium::MediumId;
 use crate::texture::TextureId;
 
@@ -81,10 +81,6 @@ impl Scene {
             causes.extend(of_surface(&material).map(|effect| (effect, element)));
             if material.disperses() {
                 causes.push((Effect::Dispersion, element));
-            }
-            let multiple = multiple_scattering(&mut material).map(|multiple| *multiple);
-            if multiple.is_some_and(|multiple| multiple != MultipleScattering::Lost) {
-                causes.push((Effect::MultipleScattering, element));
             }
             let lobes = of_lobes(&mut material);
             let lobes = lobes.filter(|(_, factor)| !self.textures.is_black(**factor));

@@ -5,10 +5,8 @@ use alloc::collections::BTreeSet;
 use etendue_math::Spectrum;
 
 use super::Effect;
-use super::causes::{
-    multiple_scattering, of_extinction, of_light, of_lobes, of_surface, of_texture,
-};
-use crate::material::{Material, MaterialId, MultipleScattering};
+use super::causes::{of_extinction, of_light, of_lobes, of_surface, of_texture};
+use crate::material::{Material, MaterialId};
 use crate::medium::{MediumId, Phase};
 use crate::texture::{TextureId, Textures};
 use crate::{Color, Scene};
@@ -84,7 +82,8 @@ fn changed(
     let part = |MaterialId(id)| earlier[id as usize].clone();
     if of_surface(material).is_some_and(out) {
         return Some(match *material {
-            Material::Mask { nested, .. }
+            Material::Compensated { nested, .. }
+            | Material::Mask { nested, .. }
             | Material::NormalMap { nested, .. }
             | Material::BumpMap { nested, .. } => part(nested),
             Material::Blend { weight, parts } => {
@@ -105,11 +104,6 @@ fn changed(
         && out(Effect::Dispersion)
     {
         is_simpler |= dispersion.take().is_some();
-    }
-    if let Some(multiple) = multiple_scattering(&mut changed)
-        && out(Effect::MultipleScattering)
-    {
-        is_simpler |= core::mem::take(multiple) != MultipleScattering::Lost;
     }
     let (mut lobes, mut left_out) = (0, 0);
     for (effect, factor) in of_lobes(&mut changed) {

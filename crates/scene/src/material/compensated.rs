@@ -1,36 +1,37 @@
 //! Rough metal and glass with the light that their facets scatter more than once.
 
+use alloc::sync::Arc;
+
 use etendue_brdf::{
-    Bsdf, ComplexIor, Ior, KullaContyConductor, KullaContyDielectric, Lobes, Microfacets,
-    Reflectance, Sample, TurquinConductor,
+    Bsdf, ComplexIor, KullaContyConductor, KullaContyDielectric, Lobes, Microfacets, Reflectance,
+    Sample, TurquinConductor,
 };
 use etendue_math::Spectrum;
 use etendue_math::glam::Vec3;
 
-/// What becomes of light that a facet sends to another one.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum MultipleScattering {
-    /// It is lost, as in Walter's model.
-    #[default]
-    Lost,
-    /// A second lobe brings it back, reciprocally.
-    KullaConty,
-    /// The lobe is brightened; of metals.
-    Turquin,
+/// How light that facets scatter more than once is brought back.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Compensation {
+    /// By a second lobe of metal, reciprocally.
+    KullaContyMetal,
+    /// By a brighter lobe of metal.
+    TurquinMetal,
+    /// By a second lobe of glass on either side, whose tables are made for one index and one width.
+    KullaContyGlass(Arc<KullaContyDielectric<f32>>),
 }
 
-/// A microfacet model with a compensation, as its parameters: one that was put together takes several times the memory of
-/// any other, so this is done in each call.
+/// A microfacet model with a compensation.
 ///
-/// Black where there is no table for the facets: anisotropic ones, Walter's fit of Beckmann's Λ.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Compensated<S: Spectrum<Real = f32>> {
-    /// Metal after Kulla and Conty.
-    KullaContyMetal(Metal<S>),
+/// Metal is there as its parameters: a model that was put together takes several times the memory of any other, so this is done
+/// in each call. Black where there is no table for the facets: anisotropic ones, Walter's fit of Beckmann's Λ.
+#[derive(Clone, Copy, Debug)]
+pub enum Compensated<'a, S: Spectrum<Real = f32>> {
+    /// Metal after Kulla and Conty, and the average of its Fresnel term.
+    KullaContyMetal(Metal<S>, S),
     /// Metal after Turquin.
     TurquinMetal(Metal<S>),
-    /// Glass after Kulla and Conty.
-    KullaContyGlass(Glass<S>),
+    /// Glass after Kulla and Conty, and factors of reflected and transmitted light.
+    KullaContyGlass(&'a KullaContyDielectric<f32>, [Reflectance<S>; 2]),
 }
 
 /// Parameters of a rough metal.
@@ -44,22 +45,9 @@ pub struct Metal<S: Spectrum<Real = f32>> {
     pub specular_reflectance: Reflectance<S>,
 }
 
-/// Parameters of rough glass.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Glass<S: Spectrum<Real = f32>> {
-    /// Relative index.
-    pub eta: Ior<f32>,
-    /// Its facets.
-    pub facets: Microfacets<f32>,
-    /// Factor of reflected light.
-    pub specular_reflectance: Reflectance<S>,
-    /// Factor of transmitted light.
-    pub specular_transmittance: Reflectance<S>,
-}
-
 impl<S: Spectrum<Real = f32>> Metal<S> {
-    fn kulla_conty(self) -> Option<KullaContyConductor<S>> {
-        let model = KullaContyConductor::new(self.ior, self.facets).ok()?;
+    fn kulla_conty(self, average: S) -> Option<KullaContyConductor<S>> {
+        let model = KullaContyConductor::with_average(self.ior, self.facets, average).ok()?;
         Some(model.with_specular_reflectance(self.specular_reflectance))
     }
 
@@ -69,53 +57,49 @@ impl<S: Spectrum<Real = f32>> Metal<S> {
     }
 }
 
-impl<S: Spectrum<Real = f32>> Glass<S> {
-    fn kulla_conty(self) -> Option<KullaContyDielectric<S>> {
-        let model = KullaContyDielectric::new(self.eta, self.facets).ok()?;
-        Some(model.with_factors(self.specular_reflectance, self.specular_transmittance))
-    }
+/// The factor of light between two directions.
+fn factor<S: Spectrum<Real = f32>>([ks, kt]: [Reflectance<S>; 2], wo: Vec3, wi: Vec3) -> S {
+    if wo.z * wi.z > 0.0 { ks.value() } else { kt.value() }
 }
 
-impl<S: Spectrum<Real = f32>> Compensated<S> {
-    /// Whether there is a table for its facets.
-    pub(super) fn is_possible(&self) -> bool {
-        self.lobes() != Lobes::default()
-    }
-}
-
-/// Puts the model together and calls it.
-macro_rules! call {
-    ($compensated:ident, $method:ident($($argument:expr),*), $nothing:expr) => {
-        match $compensated {
-            Compensated::KullaContyMetal(metal) => {
-                metal.kulla_conty().map_or($nothing, |model| model.$method($($argument),*))
-            }
-            Compensated::TurquinMetal(metal) => {
-                metal.turquin().map_or($nothing, |model| model.$method($($argument),*))
-            }
-            Compensated::KullaContyGlass(glass) => {
-                glass.kulla_conty().map_or($nothing, |model| model.$method($($argument),*))
-            }
-        }
-    };
-}
-
-impl<S: Spectrum<Real = f32>> Bsdf for Compensated<S> {
+impl<S: Spectrum<Real = f32>> Bsdf for Compensated<'_, S> {
     type Color = S;
 
     fn lobes(&self) -> Lobes {
-        call!(self, lobes(), Lobes::default())
+        Lobes {
+            continuous: true,
+            delta: false,
+            transmission: matches!(self, Self::KullaContyGlass(..)),
+        }
     }
 
     fn eval_pdf(&self, wo: Vec3, wi: Vec3) -> (S, f32) {
-        call!(self, eval_pdf(wo, wi), (S::black(), 0.0))
+        let nothing = (S::black(), 0.0);
+        match *self {
+            Self::KullaContyMetal(metal, average) => {
+                metal.kulla_conty(average).map_or(nothing, |model| model.eval_pdf(wo, wi))
+            }
+            Self::TurquinMetal(metal) => {
+                metal.turquin().map_or(nothing, |model| model.eval_pdf(wo, wi))
+            }
+            Self::KullaContyGlass(glass, factors) => {
+                let (f, pdf) = glass.eval_pdf(wo, wi);
+                (factor(factors, wo, wi).scale(f), pdf)
+            }
+        }
     }
 
     fn sample(&self, wo: Vec3, u_lobe: f32, u: [f32; 2]) -> Option<Sample<S>> {
-        call!(self, sample(wo, u_lobe, u), None)
-    }
-
-    fn albedo(&self, wo: Vec3) -> Option<S> {
-        call!(self, albedo(wo), None)
+        match *self {
+            Self::KullaContyMetal(metal, average) => {
+                metal.kulla_conty(average)?.sample(wo, u_lobe, u)
+            }
+            Self::TurquinMetal(metal) => metal.turquin()?.sample(wo, u_lobe, u),
+            Self::KullaContyGlass(glass, factors) => {
+                let Sample { wi, weight, density, eta } = glass.sample(wo, u_lobe, u)?;
+                let weight = factor(factors, wo, wi).scale(weight);
+                (!weight.is_black()).then_some(Sample { wi, weight, density, eta })
+            }
+        }
     }
 }

@@ -29,7 +29,7 @@ pub enum Model<'a, C: Channels = Primaries> {
     /// A smooth or rough interface whose index depends on the wavelength.
     Dispersive(Dispersive<C::Color>),
     /// A rough metal or rough glass with a compensation.
-    Compensated(Compensated<C::Color>),
+    Compensated(Compensated<'a, C::Color>),
     /// A pane without thickness.
     ThinDielectric(ThinDielectric<C::Color>),
     /// A polished metal.

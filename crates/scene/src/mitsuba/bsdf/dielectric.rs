@@ -3,9 +3,10 @@
 use super::super::reader::PluginReader;
 use super::super::value::{Role, texture_or};
 use super::super::{Context, dispersion, ior};
+use super::compensation;
 use super::roughness::roughness;
 use crate::SceneError;
-use crate::material::{Material, MaterialId, MultipleScattering, Roughness};
+use crate::material::{Material, MaterialId, Roughness};
 use crate::texture::TextureId;
 
 /// A smooth interface: `int_ior` (bk7), `ext_ior` (air), `specular_reflectance` (1),
@@ -23,10 +24,6 @@ pub(super) fn rough<'a>(
     context: &mut Context<'a>,
 ) -> Result<MaterialId, SceneError> {
     let roughness = roughness(reader, context)?;
-    if roughness.multiple_scattering == MultipleScattering::Turquin {
-        let message = "“turquin” is for metals; glass has “kulla-conty”";
-        return Err(reader.error("multiple_scattering", message));
-    }
     interface(reader, context, Some(roughness))
 }
 
@@ -36,10 +33,12 @@ fn interface<'a>(
     roughness: Option<Roughness>,
 ) -> Result<MaterialId, SceneError> {
     let (eta, dispersion) = dispersion::interface(reader)?;
-    let compensates = roughness
-        .is_some_and(|roughness| roughness.multiple_scattering != MultipleScattering::Lost);
-    if dispersion.is_some() && compensates {
-        let message = "glass cannot have both dispersion and a compensation of multiple scattering";
+    let how = match &roughness {
+        Some(roughness) => compensation::of_glass(reader, context, eta, roughness)?,
+        None => None,
+    };
+    if dispersion.is_some() && how.is_some() {
+        let message = "glass cannot have both dispersion and “multiple_scattering”";
         return Err(reader.error("multiple_scattering", message));
     }
     let [specular_reflectance, specular_transmittance] = factors(reader, context)?;
@@ -50,7 +49,7 @@ fn interface<'a>(
         specular_reflectance,
         specular_transmittance,
     };
-    context.add_material(material, &reader.node().location)
+    compensation::add(reader, context, material, how)
 }
 
 /// A pane: the parameters of `dielectric`.

@@ -8,7 +8,7 @@ use super::super::Context;
 use super::super::reader::PluginReader;
 use super::super::value::{Role, texture_if_given, texture_or};
 use crate::SceneError;
-use crate::material::{MultipleScattering, Roughness};
+use crate::material::Roughness;
 use crate::xml::Value;
 
 /// The distribution of facets, and how they hide each other.
@@ -32,8 +32,7 @@ pub(super) fn facets(reader: &mut PluginReader<'_>) -> Result<(Distribution, Mas
     Ok((distribution, masking))
 }
 
-/// The facets with their widths: `alpha` (0.1), or `alpha_u` and `alpha_v`; `multiple_scattering`: `lost` (default, as in Mitsuba),
-/// `kulla-conty` or `turquin`.
+/// The facets with their widths: `alpha` (0.1), or `alpha_u` and `alpha_v`.
 pub(super) fn roughness<'a>(
     reader: &mut PluginReader<'a>,
     context: &mut Context<'a>,
@@ -55,32 +54,7 @@ pub(super) fn roughness<'a>(
             return Err(reader.error("alpha_u", message));
         }
     };
-    let multiple_scattering = reader.choice(
-        "multiple_scattering",
-        &[
-            ("lost", MultipleScattering::Lost),
-            ("kulla-conty", MultipleScattering::KullaConty),
-            ("turquin", MultipleScattering::Turquin),
-        ],
-    )?;
-    let roughness = Roughness { distribution, masking, alpha_u, alpha_v, multiple_scattering };
-    if multiple_scattering != MultipleScattering::Lost && !has_tables(&roughness) {
-        let message = "there are tables of “multiple_scattering” for isotropic facets only, “ggx” ones or “beckmann” ones with \
-                       “smith_lambda” “exact” and “masking” “correlated”";
-        return Err(reader.error("multiple_scattering", message));
-    }
-    Ok(roughness)
-}
-
-/// Whether what facets scatter more than once is tabulated.
-fn has_tables(roughness: &Roughness) -> bool {
-    let is_known = match roughness.distribution {
-        Distribution::Ggx => true,
-        Distribution::Beckmann { lambda } => {
-            lambda == BeckmannLambda::Exact && roughness.masking == Masking::HeightCorrelated
-        }
-    };
-    is_known && roughness.alpha_u == roughness.alpha_v
+    Ok(Roughness { distribution, masking, alpha_u, alpha_v })
 }
 
 /// Refuses a negative width.
