@@ -65,6 +65,8 @@ pub enum Effect {
     Instancing,
     /// A lens with an extent, out of whose focus things blur.
     DepthOfField,
+    /// Shapes, instances and a camera that move while the shutter is open.
+    MotionBlur,
     /// Emitters that the camera looks through.
     HiddenEmitters,
     /// No light where geometric and interpolated normals disagree.
@@ -73,7 +75,7 @@ pub enum Effect {
 
 impl Effect {
     /// The whole vocabulary.
-    pub const ALL: [Self; 28] = [
+    pub const ALL: [Self; 29] = [
         Self::IndirectLight,
         Self::AreaLight,
         Self::PointLight,
@@ -100,6 +102,7 @@ impl Effect {
         Self::AnisotropicScattering,
         Self::Instancing,
         Self::DepthOfField,
+        Self::MotionBlur,
         Self::HiddenEmitters,
         Self::StrictNormals,
     ];
@@ -133,6 +136,7 @@ impl Effect {
             Self::AnisotropicScattering => "anisotropic-scattering",
             Self::Instancing => "instancing",
             Self::DepthOfField => "depth-of-field",
+            Self::MotionBlur => "motion-blur",
             Self::HiddenEmitters => "hidden-emitters",
             Self::StrictNormals => "strict-normals",
         }
@@ -197,6 +201,9 @@ impl Effect {
             Self::AnisotropicScattering => "a frame and a root per collision",
             Self::Instancing => "a ray transformed and a second hierarchy entered per instance met",
             Self::DepthOfField => "two random numbers and a point on the lens per sample",
+            Self::MotionBlur => {
+                "a random number per sample; a placement interpolated, a ray transformed and a second hierarchy entered per moving shape met"
+            }
             Self::HiddenEmitters => "a further ray behind every emitter that the camera sees",
             Self::StrictNormals => "a comparison per direction",
         }
