@@ -74,7 +74,8 @@ impl GeometryBuilder {
         self.instances.len() as u32 - 1
     }
 
-    /// Adds a shape, described in the space that moves.
+    /// Adds a shape, described in the space that moves. As through an instance, fronts stay fronts where a motion
+    /// mirrors.
     pub fn add_moving_shape(&mut self, shape: Shape, motion: Motion) -> ShapeId {
         let (group, ids) = self.add_group(alloc::vec![shape]);
         self.moving.push(Moving { group: group.0, motion, origin: Origin::Shape(ids[0]) });

@@ -155,11 +155,12 @@ impl Geometry {
         for Moving { group, motion, origin } in core::mem::take(&mut self.moving) {
             let transform = *motion.opening();
             let placed = match origin {
-                Origin::Shape(id) => {
+                // Mirroring turns some shapes inside out, but no instance.
+                Origin::Shape(id) if !transform.is_mirrored() => {
                     let shape = self.shapes[id.0 as usize].clone();
                     shape.transformed(&transform).ok().map(|shape| (id, shape))
                 }
-                Origin::Instance => None,
+                Origin::Shape(_) | Origin::Instance => None,
             };
             match placed {
                 Some((id, shape)) => {

@@ -6,6 +6,8 @@ mod segment;
 
 use alloc::vec::Vec;
 
+use etendue_math::glam::DAffine3;
+
 use super::{Aabb, Transform};
 
 pub use animation::{Animation, AnimationError, Placement, Shutter, ShutterError};
@@ -43,6 +45,17 @@ impl Motion {
     pub fn ends(&self) -> impl Iterator<Item = Transform> {
         let ends = self.segments.iter().flat_map(|segment| [0.0, 1.0].map(|u| segment.at(u)));
         ends.map(Transform::of_pose)
+    }
+
+    /// The motion of what was reflected in the origin before: `x ↦ M(−x)`, which keeps handedness where this does not.
+    #[must_use]
+    pub fn reflected(mut self) -> Self {
+        let DAffine3 { matrix3, translation } = *self.opening.affine();
+        self.opening = Transform::of_pose(DAffine3 { matrix3: -matrix3, translation });
+        for segment in &mut self.segments {
+            segment.reflect();
+        }
+        self
     }
 
     /// A box that holds a box in every place that it has while the shutter is open.

@@ -53,6 +53,11 @@ impl Segment {
         Real::abs(self.angle - 0.5 * <f64 as Real>::PI) < HALF_TURN
     }
 
+    /// Of what was reflected in the origin before: a stretch is definite with the other sign.
+    pub(super) fn reflect(&mut self) {
+        self.stretch = self.stretch.map(|stretch| -stretch);
+    }
+
     /// When it starts.
     pub(super) fn start(&self) -> f64 {
         self.time[0]

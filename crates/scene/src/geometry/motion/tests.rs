@@ -147,6 +147,23 @@ fn mirrored_keyframes_stay_mirrored_and_regular_on_the_way() {
 }
 
 #[test]
+fn a_reflected_motion_is_the_motion_of_what_was_reflected() {
+    let mut random = Random(24);
+    let reflection = Transform::scale(DVec3::splat(-1.0)).expect("a reflection");
+    for i in 0..50 {
+        let [a, b] = [0; 2].map(|_| random_map(&mut random, i % 2 == 1));
+        let (motion, reflected) = (motion(a, b), motion(a, b).reflected());
+        for u in [0.0, 0.3, 1.0] {
+            // To the bit: signs are exact.
+            let expected = product([motion.at(u), reflection]);
+            assert_eq!(reflected.at(u).affine(), expected.affine(), "{i} {u}");
+            assert_ne!(reflected.at(u).is_mirrored(), motion.at(u).is_mirrored());
+        }
+        assert_eq!(reflected.opening().affine(), product([a, reflection]).affine());
+    }
+}
+
+#[test]
 fn boxes_hold_what_moves_at_every_time() {
     let mut random = Random(23);
     for i in 0..400 {

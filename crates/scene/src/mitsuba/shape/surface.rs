@@ -4,6 +4,8 @@ use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
 
+use etendue_math::glam::DVec3;
+
 use super::super::reader::PluginReader;
 use super::super::{Context, bsdf, emitter, medium};
 use super::{Item, Surface};
@@ -20,6 +22,11 @@ pub(super) fn placed(
 ) -> Result<(Transform, Option<Motion>), SceneError> {
     Ok(match reader.placement("to_world", context)? {
         Placement::Still(to_world) => (to_world, None),
+        // Mirroring turns some shapes inside out, which it does not as a motion: it is part of the description.
+        Placement::Moving(motion) if motion.opening().is_mirrored() => {
+            let reflection = Transform::scale(DVec3::NEG_ONE);
+            (reflection.map_err(|e| refused(reader, e))?, Some(motion.reflected()))
+        }
         Placement::Moving(motion) => (Transform::IDENTITY, Some(motion)),
     })
 }
