@@ -11,5 +11,6 @@ mod health;
 mod media;
 mod motion;
 mod scenes;
+mod spectral;
 mod strategies;
 mod transport;
