@@ -81,7 +81,7 @@ pub enum Effect {
 
 impl Effect {
     /// The whole vocabulary.
-    pub const ALL: [Self; 31] = [
+    pub const ALL: [Self; 32] = [
         Self::IndirectLight,
         Self::AreaLight,
         Self::PointLight,
