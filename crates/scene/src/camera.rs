@@ -177,24 +177,24 @@ impl Camera {
     pub fn moving(self, motion: Motion) -> Result<Self, CameraError> {
         let opening = *motion.opening();
         let axis = optical_axis(&opening).ok_or(CameraError::Transform)?;
-        Ok(Self { motion: Some(motion), ..self.placed(opening, axis) })
+        Ok(Self { motion: Some(motion), ..self.placed(&opening, axis) })
     }
 
     /// The same standing still at another place.
-    fn placed(&self, to_world: Transform, axis: Vec3) -> Self {
+    fn placed(&self, to_world: &Transform, axis: Vec3) -> Self {
         let optics = match self.optics {
             Optics::Parallel { .. } => Optics::Parallel { direction: axis },
             optics => optics,
         };
         let Self { projection, near, far, center, step, .. } = *self;
-        Self { projection, to_world, motion: None, near, far, center, step, optics }
+        Self { projection, to_world: *to_world, motion: None, near, far, center, step, optics }
     }
 
     /// The same standing still where it is at a moment, if it moves.
     fn on_the_way(&self, time: f32) -> Option<Self> {
         let to_world = self.motion.as_ref()?.at(time);
         // The optical axis never vanishes: all placements on the way have inverses.
-        Some(self.placed(to_world, optical_axis(&to_world).unwrap_or(Vec3::Z)))
+        Some(self.placed(&to_world, optical_axis(&to_world).unwrap_or(Vec3::Z)))
     }
 
     /// The [`ray`](Self::ray) at a moment, a share of the exposure: 0 where the shutter opens, 1 where it closes.

@@ -37,6 +37,7 @@ const SHAPES: &Family<Item> = &[
 ];
 
 /// What a shape plugin stands for.
+#[expect(clippy::large_enum_variant, reason = "it is taken apart where it is made")]
 pub(super) enum Item {
     /// A shape of its own.
     Surface(Surface),
