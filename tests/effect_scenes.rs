@@ -31,6 +31,7 @@ const SCENES: &[(&str, f64, f64)] = &[
     ("indirect-light", 0.0025, 0.0042),
     ("instancing", 0.0037, 0.0022),
     ("mesh-attribute", 0.026, 0.01),
+    ("motion-blur", 0.0031, 0.0014),
     ("multiple-scattering", 0.016, 0.0097),
     ("normal-map", 0.057, 0.011),
     ("opacity-mask", 0.015, 0.0028),

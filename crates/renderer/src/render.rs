@@ -28,6 +28,8 @@ pub struct Renderer<'a> {
     pub(crate) configuration: Configuration,
     pub(crate) materials: Prepared<'a>,
     lights: LightSampler,
+    /// Whether samples have a time.
+    has_motion: bool,
     pub(crate) filter: FilterSampler,
     pool: rayon::ThreadPool,
 }
@@ -70,7 +72,8 @@ impl<'a> Renderer<'a> {
         let materials = Prepared::new(scene);
         let lights = LightSampler::new(scene);
         let filter = FilterSampler::new(&scene.film);
-        Ok(Self { scene, settings, configuration, materials, lights, filter, pool })
+        let has_motion = scene.has_motion();
+        Ok(Self { scene, settings, configuration, materials, lights, has_motion, filter, pool })
     }
 
     /// What is rendered with.
@@ -204,8 +207,15 @@ impl<'a> Renderer<'a> {
         points: &S,
         rays: &mut RayCounts,
     ) -> Color {
-        let (ray, weight) = self.camera_ray(filter, points);
-        T::radiance(tracer, ray, points, rays).scale(weight)
+        let time = self.time(points);
+        let (ray, weight) = self.camera_ray(filter, time, points);
+        T::radiance(&tracer.at(time), ray, points, rays).scale(weight)
+    }
+
+    /// The moment of one sample, in shares of the exposure: one for all rays of its path.
+    #[inline(always)]
+    pub(crate) fn time<S: Sampler>(&self, points: &S) -> f32 {
+        if self.has_motion { points.sample_1d(Dimension::camera(Decision::Time)) } else { 0.0 }
     }
 
     /// The camera's ray of one sample, and the weight of the radiance that it finds.
@@ -213,6 +223,7 @@ impl<'a> Renderer<'a> {
     pub(crate) fn camera_ray<S: Sampler>(
         &self,
         filter: &PixelFilter<'_>,
+        time: f32,
         points: &S,
     ) -> (Ray, f32) {
         let film = filter.sample(points.sample_2d(Dimension::camera(Decision::Film)));
@@ -222,7 +233,7 @@ impl<'a> Renderer<'a> {
         } else {
             [0.0; 2]
         };
-        (camera.ray(film.position, lens), film.weight)
+        (camera.ray_at(film.position, lens, time), film.weight)
     }
 }
 
@@ -240,7 +251,7 @@ impl Configured for OneSample<'_, '_> {
         let Self { renderer, pixel, index } = self;
         let points = S::at(renderer.settings.seed, pixel, index);
         let filter = renderer.filter.pixel(pixel);
-        let tracer = renderer.tracer::<T, _>(&renderer.scene.geometry);
+        let tracer = renderer.tracer::<T, _>(renderer.scene.geometry.at(0.0));
         renderer.path_sample::<S, T, _>(&tracer, &filter, &points, &mut RayCounts::default())
     }
 }

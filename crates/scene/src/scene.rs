@@ -146,6 +146,11 @@ impl Scene {
         self.infinite_lights = infinite(&self.lights);
     }
 
+    /// Whether anything moves while the shutter is open, so that paths belong to a moment.
+    pub fn has_motion(&self) -> bool {
+        self.camera.is_moving() || self.geometry.moving_count() > 0
+    }
+
     /// The media on a side of a shape, and that around the camera. Paths meet them if they
     /// [know media](PathSettings::volumes).
     pub fn media_in_use(&self) -> BTreeSet<MediumId> {

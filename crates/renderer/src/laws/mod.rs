@@ -9,6 +9,7 @@ mod features;
 mod furnace;
 mod health;
 mod media;
+mod motion;
 mod scenes;
 mod spectral;
 mod strategies;

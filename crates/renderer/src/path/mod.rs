@@ -196,6 +196,12 @@ impl<'a, 's, R: Rays, C: Channels> PathTracer<'a, 's, R, C> {
         }
     }
 
+    /// The same for paths at another moment, in shares of the exposure.
+    #[inline(always)]
+    pub(crate) fn at(&self, time: f32) -> Self {
+        Self { rays: self.rays.at(time), ..*self }
+    }
+
     /// The largest number of edges of a path.
     ///
     /// `u16::MAX` at the latest: random numbers have no more addresses.

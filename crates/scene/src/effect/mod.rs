@@ -69,6 +69,8 @@ pub enum Effect {
     Instancing,
     /// A lens with an extent, out of whose focus things blur.
     DepthOfField,
+    /// Shapes, instances and a camera that move while the shutter is open.
+    MotionBlur,
     /// Emitters that the camera looks through.
     HiddenEmitters,
     /// Paths that carry wavelengths although nothing parts them.
@@ -79,7 +81,7 @@ pub enum Effect {
 
 impl Effect {
     /// The whole vocabulary.
-    pub const ALL: [Self; 31] = [
+    pub const ALL: [Self; 32] = [
         Self::IndirectLight,
         Self::AreaLight,
         Self::PointLight,
@@ -108,6 +110,7 @@ impl Effect {
         Self::AnisotropicScattering,
         Self::Instancing,
         Self::DepthOfField,
+        Self::MotionBlur,
         Self::HiddenEmitters,
         Self::SpectralColours,
         Self::StrictNormals,
@@ -144,6 +147,7 @@ impl Effect {
             Self::AnisotropicScattering => "anisotropic-scattering",
             Self::Instancing => "instancing",
             Self::DepthOfField => "depth-of-field",
+            Self::MotionBlur => "motion-blur",
             Self::HiddenEmitters => "hidden-emitters",
             Self::SpectralColours => "spectral-colours",
             Self::StrictNormals => "strict-normals",
@@ -215,6 +219,9 @@ impl Effect {
             Self::AnisotropicScattering => "a frame and a root per collision",
             Self::Instancing => "a ray transformed and a second hierarchy entered per instance met",
             Self::DepthOfField => "two random numbers and a point on the lens per sample",
+            Self::MotionBlur => {
+                "a random number per sample; a placement interpolated, a ray transformed and a second hierarchy entered per moving shape met"
+            }
             Self::HiddenEmitters => "a further ray behind every emitter that the camera sees",
             Self::SpectralColours => {
                 "four wavelengths instead of three primaries all over the scene, models made at every surface met"

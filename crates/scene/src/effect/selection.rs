@@ -24,7 +24,7 @@ impl Scene {
     ///   of two that are blended the heavier one is there; normals are those of the shape;
     /// * textures: their mean is everywhere, or 1 times the scale of a mesh attribute;
     /// * media are not there, take as much of every colour, scatter evenly;
-    /// * instances are not there, everything is in focus, emitters are seen, normals need not agree.
+    /// * instances are not there, everything is in focus and stands where it is when the shutter opens, emitters are seen, normals need not agree.
     ///
     /// Lights are numbered anew.
     pub fn without(mut self, effects: &BTreeSet<Effect>) -> Self {
@@ -47,6 +47,12 @@ impl Scene {
         }
         if out(Effect::DepthOfField) {
             self.camera = self.camera.without_lens();
+        }
+        if out(Effect::MotionBlur) {
+            self.camera = self.camera.without_motion();
+            if self.geometry.moving_count() > 0 {
+                self.geometry = self.geometry.without_motion();
+            }
         }
         self
     }
