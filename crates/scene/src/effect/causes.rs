@@ -12,6 +12,7 @@ pub(super) fn of_light(light: &Light) -> Effect {
         Light::Area(_) => Effect::AreaLight,
         Light::Point(_) => Effect::PointLight,
         Light::Spot(_) => Effect::SpotLight,
+        Light::Projector(_) => Effect::Projector,
         Light::Directional(_) => Effect::DirectionalLight,
         Light::Constant(_) => Effect::ConstantBackground,
         Light::Environment(_) => Effect::EnvironmentMap,

@@ -21,6 +21,8 @@ pub enum Effect {
     PointLight,
     /// Light from a point into a cone.
     SpotLight,
+    /// A picture thrown from a point.
+    Projector,
     /// Parallel light.
     DirectionalLight,
     /// The same light from everywhere.
@@ -73,11 +75,12 @@ pub enum Effect {
 
 impl Effect {
     /// The whole vocabulary.
-    pub const ALL: [Self; 28] = [
+    pub const ALL: [Self; 29] = [
         Self::IndirectLight,
         Self::AreaLight,
         Self::PointLight,
         Self::SpotLight,
+        Self::Projector,
         Self::DirectionalLight,
         Self::ConstantBackground,
         Self::EnvironmentMap,
@@ -111,6 +114,7 @@ impl Effect {
             Self::AreaLight => "area-light",
             Self::PointLight => "point-light",
             Self::SpotLight => "spot-light",
+            Self::Projector => "projector",
             Self::DirectionalLight => "directional-light",
             Self::ConstantBackground => "constant-background",
             Self::EnvironmentMap => "environment-map",
@@ -147,7 +151,7 @@ impl Effect {
             Self::AreaLight => {
                 "a light sample and a shadow ray per surface met, a look at every surface whether it emits"
             }
-            Self::PointLight | Self::SpotLight | Self::DirectionalLight => {
+            Self::PointLight | Self::SpotLight | Self::Projector | Self::DirectionalLight => {
                 "a choice among lights, a light sample and a shadow ray per surface met"
             }
             Self::ConstantBackground => {

@@ -15,6 +15,7 @@ mod bsdf;
 mod conductors;
 mod context;
 mod emitter;
+mod field_of_view;
 mod film;
 mod framing;
 mod image;

@@ -109,6 +109,7 @@ fn check_light(
         }
         Light::Point(light) => light.check().map_err(refused),
         Light::Spot(light) => light.texture().map_or(Ok(()), known),
+        Light::Projector(light) => known(light.texture()),
         Light::Directional(light) => {
             *light = light.normalized().map_err(refused)?;
             Ok(())

@@ -210,6 +210,14 @@ impl Textures {
         self.entries.get(id.0 as usize).map_or(Color::black(), |entry| entry.max)
     }
 
+    /// Columns and rows of a bitmap; 1 × 1 of every other texture.
+    pub(crate) fn size(&self, id: TextureId) -> [u32; 2] {
+        match self.get(id) {
+            Some(Texture::Bitmap(bitmap)) => [bitmap.image().width(), bitmap.image().height()],
+            _ => [1, 1],
+        }
+    }
+
     /// Whether the texture is black everywhere, being constant.
     pub(crate) fn is_black(&self, id: TextureId) -> bool {
         self.is_constant(id) && self.mean(id).is_black()
