@@ -3,6 +3,7 @@
 use etendue_math::Rgb;
 
 use super::cie;
+use super::curve::interpolate;
 
 /// What a spectrum describes, which decides how it becomes a colour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -59,23 +60,12 @@ pub fn equal_energy_white() -> Rgb<f64> {
 }
 
 /// CIE XYZ to linear RGB with Rec. 709 primaries and white point D65.
-fn xyz_to_rgb([x, y, z]: [f64; 3]) -> Rgb<f64> {
+pub(super) fn xyz_to_rgb([x, y, z]: [f64; 3]) -> Rgb<f64> {
     Rgb::new(
         3.240479 * x - 1.537150 * y - 0.498535 * z,
         -0.969256 * x + 1.875991 * y + 0.041556 * z,
         0.055648 * x - 0.204043 * y + 1.057311 * z,
     )
-}
-
-/// The value at a wavelength: linear between samples, 0 outside.
-fn interpolate(samples: &[(f64, f64)], wavelength: f64) -> f64 {
-    let after = samples.partition_point(|&(w, _)| w <= wavelength);
-    match (samples.get(after.wrapping_sub(1)), samples.get(after)) {
-        (Some(&(w0, v0)), Some(&(w1, v1))) => v0 + (v1 - v0) * (wavelength - w0) / (w1 - w0),
-        // The last sample belongs to the spectrum too.
-        (Some(&(w0, v0)), None) if w0 == wavelength => v0,
-        _ => 0.0,
-    }
 }
 
 #[cfg(test)]
@@ -123,16 +113,5 @@ mod tests {
         for (ours, theirs) in equal_energy_white().to_array().into_iter().zip(mitsuba) {
             assert!((0.5 * ours - theirs).abs() < 1e-6);
         }
-    }
-
-    #[test]
-    fn a_spectrum_ends_with_its_last_sample() {
-        let samples = [(400.0, 1.0), (500.0, 3.0)];
-        for (wavelength, value) in
-            [(399.0, 0.0), (400.0, 1.0), (450.0, 2.0), (500.0, 3.0), (501.0, 0.0)]
-        {
-            assert_eq!(interpolate(&samples, wavelength), value);
-        }
-        assert_eq!(interpolate(&[], 450.0), 0.0);
     }
 }
