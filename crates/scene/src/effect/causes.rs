@@ -3,7 +3,7 @@
 use super::Effect;
 use crate::light::Light;
 use crate::material::{Material, PlasticSurface};
-use crate::medium::{Extinction, Medium, Phase};
+use crate::medium::{Extinction, Medium};
 use crate::texture::{Texture, TextureId};
 
 /// The effect of a light.
@@ -90,6 +90,6 @@ pub(super) fn of_extinction(medium: &Medium) -> Effect {
 /// The effects of a medium.
 pub(super) fn of_medium(medium: &Medium) -> impl Iterator<Item = Effect> {
     let coloured = medium.is_coloured().then_some(Effect::ColouredExtinction);
-    let anisotropic = (medium.phase != Phase::Isotropic).then_some(Effect::AnisotropicScattering);
+    let anisotropic = (!medium.phase.is_isotropic()).then_some(Effect::AnisotropicScattering);
     [Some(of_extinction(medium)), coloured, anisotropic].into_iter().flatten()
 }

@@ -61,7 +61,7 @@ pub enum Effect {
     HeterogeneousMedium,
     /// Matter that takes more of one colour than of another.
     ColouredExtinction,
-    /// Matter that scatters forwards or backwards.
+    /// Matter that scatters more into some directions than into others.
     AnisotropicScattering,
     /// Shapes that stand in several places.
     Instancing,
@@ -198,7 +198,7 @@ impl Effect {
             Self::ColouredExtinction => {
                 "a random number per sample and three exponentials per collision or way through"
             }
-            Self::AnisotropicScattering => "a frame and a root per collision",
+            Self::AnisotropicScattering => "a frame, and a root or a search, per collision",
             Self::Instancing => "a ray transformed and a second hierarchy entered per instance met",
             Self::DepthOfField => "two random numbers and a point on the lens per sample",
             Self::HiddenEmitters => "a further ray behind every emitter that the camera sees",
