@@ -218,6 +218,47 @@ fn albedos_outside_the_unit_interval_are_clamped_with_a_warning() {
     ]);
 }
 
+#[test]
+fn dispersion_that_is_no_index_is_refused() {
+    let glass = |parameters: &str| format!("<bsdf type=\"dielectric\">{parameters}</bsdf>");
+    let string = |name, value| glass(&format!("<string name=\"{name}\" value=\"{value}\"/>"));
+    let both = "<string name=\"glass\" value=\"F2\"/><float name=\"int_ior\" value=\"1.5\"/>";
+    check([
+        material(
+            "misspelt glass",
+            3,
+            &["scene.xml:5:", "“N-SF1”", "N-SF11"],
+            &string("glass", "N-SF1"),
+        ),
+        material("glass and index", 3, &["scene.xml:5:", "“glass” or “int_ior”"], &glass(both)),
+        material(
+            "Abbe number 0",
+            3,
+            &["scene.xml:5:", "“abbe”", "positive"],
+            &glass("<float name=\"abbe\" value=\"0\"/>"),
+        ),
+        material(
+            "one coefficient",
+            3,
+            &["scene.xml:5:", "“cauchy”", "µm²"],
+            &string("cauchy", "1.5"),
+        ),
+        material("no number", 3, &["scene.xml:5:", "“x”"], &string("cauchy", "1.5, x")),
+        material(
+            "half a resonance",
+            3,
+            &["scene.xml:5:", "“sellmeier”", "pairs"],
+            &string("sellmeier", "1 0.01 2"),
+        ),
+        material(
+            "resonance in the visible",
+            3,
+            &["scene.xml:5:", "nm"],
+            &string("sellmeier", "1, 0.25"),
+        ),
+    ]);
+}
+
 /// A scene that is nothing but a sensor, whose content begins on line 3.
 fn sensor(what: &'static str, exit: i32, says: &'static [&'static str], content: &str) -> Case {
     let text = format!(

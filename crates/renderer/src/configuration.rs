@@ -4,7 +4,7 @@ use etendue_sampling::{Independent, Sampler, Sobol};
 use etendue_scene::Scene;
 use etendue_scene::scene::SamplerKind;
 
-use crate::path::{Surfaces, Transport, Volumes};
+use crate::path::{Spectral, Surfaces, Transport, Volumes};
 use crate::render::Renderer;
 use crate::settings::RenderSettings;
 
@@ -17,18 +17,29 @@ pub enum Configuration {
     Surfaces,
     /// Participating media as well, and surfaces that do not count on the way of light through them.
     Volumes,
+    /// All of that, a few wavelengths at a time instead of three primaries.
+    Spectral,
 }
 
 impl Configuration {
     /// What a scene needs.
     pub(crate) fn of(scene: &Scene, settings: &RenderSettings) -> Self {
-        if settings.path.volumes && scene.has_volumes() { Self::Volumes } else { Self::Surfaces }
+        if settings.path.spectral || scene.has_dispersion() {
+            Self::Spectral
+        } else if settings.path.volumes && scene.has_volumes() {
+            Self::Volumes
+        } else {
+            Self::Surfaces
+        }
     }
 
-    /// The largest in which a scene has the same picture. Surfaces that light passes straight on count where paths do not
+    /// The largest in which a scene has the same bits. Surfaces that light passes straight on count where paths do not
     /// [know media](etendue_scene::scene::PathSettings::volumes): such a scene keeps its own.
     pub(crate) fn largest(scene: &Scene, settings: &RenderSettings) -> Self {
-        if settings.path.volumes || !scene.has_volumes() { Self::Volumes } else { Self::Surfaces }
+        match Self::of(scene, settings) {
+            Self::Surfaces if settings.path.volumes || !scene.has_volumes() => Self::Volumes,
+            own => own,
+        }
     }
 
     /// Its name, in lower case.
@@ -36,6 +47,7 @@ impl Configuration {
         match self {
             Self::Surfaces => "surfaces",
             Self::Volumes => "volumes",
+            Self::Spectral => "spectral",
         }
     }
 }
@@ -58,8 +70,12 @@ impl Renderer<'_> {
             (SamplerKind::Independent, Configuration::Volumes) => {
                 work.run::<Independent, Volumes>()
             }
+            (SamplerKind::Independent, Configuration::Spectral) => {
+                work.run::<Independent, Spectral>()
+            }
             (SamplerKind::Sobol, Configuration::Surfaces) => work.run::<Sobol, Surfaces>(),
             (SamplerKind::Sobol, Configuration::Volumes) => work.run::<Sobol, Volumes>(),
+            (SamplerKind::Sobol, Configuration::Spectral) => work.run::<Sobol, Spectral>(),
         }
     }
 }

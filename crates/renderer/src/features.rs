@@ -10,7 +10,7 @@ use etendue_scene::Color;
 use etendue_scene::geometry::{Rays, Task};
 use etendue_scene::scene::SamplerKind;
 
-use crate::path::FirstHit;
+use crate::path::{FirstHit, Surfaces};
 use crate::render::Renderer;
 use crate::tile::Tile;
 
@@ -102,7 +102,7 @@ impl<S: Sampler> Task for TileFeatures<'_, '_, S> {
     #[inline(always)]
     fn run<R: Rays>(self, rays: R) -> Vec<Features> {
         let Self { renderer, tile, samples, .. } = self;
-        let tracer = renderer.tracer(rays);
+        let tracer = renderer.tracer::<Surfaces, R>(rays);
         let mut features = Vec::new();
         for pixel in tile.pixels() {
             let filter = renderer.filter.pixel(pixel);

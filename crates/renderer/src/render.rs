@@ -7,13 +7,12 @@ use std::sync::{Mutex, PoisonError};
 use etendue_math::Spectrum;
 use etendue_sampling::{Decision, Dimension, Sampler};
 use etendue_scene::geometry::{Ray, Rays, Task};
-use etendue_scene::material::PreparedMaterials;
 use etendue_scene::{Color, Scene};
 
 use crate::configuration::{Configuration, Configured};
 use crate::film::{FilterSampler, Image, PixelFilter, PixelSum};
 use crate::light_sampler::LightSampler;
-use crate::path::{PathTracer, Transport};
+use crate::path::{PathTracer, Prepared, Transport};
 use crate::settings::RenderSettings;
 use crate::statistics::{RayCounts, SampleAddress, Statistics};
 use crate::tile::Tile;
@@ -26,7 +25,7 @@ pub struct Renderer<'a> {
     pub(crate) scene: &'a Scene,
     pub(crate) settings: RenderSettings,
     pub(crate) configuration: Configuration,
-    materials: PreparedMaterials<'a>,
+    pub(crate) materials: Prepared<'a>,
     lights: LightSampler,
     pub(crate) filter: FilterSampler,
     pool: rayon::ThreadPool,
@@ -79,7 +78,7 @@ impl<'a> Renderer<'a> {
             .thread_name(|i| format!("render {i}"))
             .build()
             .map_err(ThreadError)?;
-        let materials = PreparedMaterials::new(&scene.materials, &scene.textures, &scene.geometry);
+        let materials = Prepared::new(scene);
         let lights = LightSampler::new(scene);
         let filter = FilterSampler::new(&scene.film);
         let configuration = Configuration::of(scene, &settings);
@@ -174,15 +173,19 @@ impl<'a> Renderer<'a> {
         });
     }
 
-    pub(crate) fn tracer<R: Rays>(&self, rays: R) -> PathTracer<'_, 'a, R> {
+    pub(crate) fn tracer<T: Transport, R: Rays>(
+        &self,
+        rays: R,
+    ) -> PathTracer<'_, 'a, R, T::Channels> {
         let RenderSettings { path, strategy, .. } = self.settings;
-        PathTracer::new(rays, self.scene, &self.materials, &self.lights, path, strategy)
+        let materials = T::materials(&self.materials);
+        PathTracer::new(rays, self.scene, materials, &self.lights, path, strategy)
     }
 
     #[inline(always)]
     fn render_pixel<S: Sampler, T: Transport, R: Rays>(
         &self,
-        tracer: &PathTracer<'_, '_, R>,
+        tracer: &PathTracer<'_, '_, R, T::Channels>,
         pixel: [u32; 2],
         statistics: &mut Statistics,
     ) -> Color {
@@ -208,7 +211,7 @@ impl<'a> Renderer<'a> {
     #[inline(always)]
     pub(crate) fn path_sample<S: Sampler, T: Transport, R: Rays>(
         &self,
-        tracer: &PathTracer<'_, '_, R>,
+        tracer: &PathTracer<'_, '_, R, T::Channels>,
         filter: &PixelFilter<'_>,
         points: &S,
         rays: &mut RayCounts,
@@ -249,7 +252,7 @@ impl Configured for OneSample<'_, '_> {
         let Self { renderer, pixel, index } = self;
         let points = S::at(renderer.settings.seed, pixel, index);
         let filter = renderer.filter.pixel(pixel);
-        let tracer = renderer.tracer(&renderer.scene.geometry);
+        let tracer = renderer.tracer::<T, _>(&renderer.scene.geometry);
         renderer.path_sample::<S, T, _>(&tracer, &filter, &points, &mut RayCounts::default())
     }
 }
@@ -282,7 +285,7 @@ impl<S: Sampler, T: Transport> Task for RenderTile<'_, '_, S, T> {
 
     #[inline(always)]
     fn run<R: Rays>(self, rays: R) -> (Vec<Color>, Statistics) {
-        let tracer = self.renderer.tracer(rays);
+        let tracer = self.renderer.tracer::<T, R>(rays);
         let mut statistics = Statistics::default();
         let mut pixels = Vec::new();
         for pixel in self.tile.pixels() {

@@ -11,10 +11,11 @@ use alloc::vec::Vec;
 use etendue_math::Vector3;
 
 use crate::camera::Camera;
+use crate::color::Primaries;
 use crate::film::Film;
 use crate::geometry::{Geometry, Located, SurfacePoint};
 use crate::light::{Light, LightId};
-use crate::material::{MaterialId, Materials, PreparedBsdf, Side};
+use crate::material::{Material, MaterialId, Materials, PreparedBsdf, Side};
 use crate::medium::{Boundary, Media, MediumId};
 use crate::texture::Textures;
 
@@ -160,6 +161,12 @@ impl Scene {
         !self.media_in_use().is_empty() || self.surfaces.iter().any(may_pass)
     }
 
+    /// Whether a surface refracts light of different wavelengths into different directions.
+    pub fn has_dispersion(&self) -> bool {
+        let used = self.materials.with_parts(self.surfaces.iter().map(|surface| surface.material));
+        used.into_iter().any(|id| self.materials.get(id).is_some_and(Material::disperses))
+    }
+
     /// A point that the geometry has given, as [`prepare`](Self::prepare) takes it.
     #[inline]
     pub fn locate(&self, point: SurfacePoint) -> Located<'_> {
@@ -170,7 +177,7 @@ impl Scene {
     #[inline]
     pub fn prepare<'a>(&'a self, surface: &'a Located<'a>, side: Side) -> PreparedBsdf<'a> {
         let material = self.surfaces[surface.point().shape.0 as usize].material;
-        self.materials.prepare(material, &self.textures, surface.into(), side)
+        self.materials.prepare(material, &self.textures, surface.into(), side, Primaries)
     }
 }
 

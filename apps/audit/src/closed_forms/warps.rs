@@ -90,7 +90,7 @@ fn directions<T: Scalar>() -> Vec<Warp<T>> {
             "Rayleigh",
             |u| Some(rayleigh::from_square(u)),
             rayleigh::to_square,
-            |w| rayleigh::pdf(w.z()),
+            |w: Vec3<T>| rayleigh::pdf(w.z()),
         ),
         Warp::new(
             "disk",

@@ -62,6 +62,9 @@ pub(crate) struct Arguments {
     /// Longest path in edges, as Mitsuba counts them: 1 is emitters only, 2 direct light; -1 no limit.
     #[arg(long, value_name = "N", value_parser = max_depth, allow_hyphen_values = true)]
     max_depth: Option<i64>,
+    /// Carry wavelengths instead of red, green and blue, which dispersion calls for, also where there is none.
+    #[arg(long)]
+    spectral: bool,
     /// Sample points.
     #[arg(long, value_name = "NAME")]
     sampler: Option<Sampler>,
@@ -132,7 +135,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     }
     let interrupt = Interrupt::install()?;
     let start = Instant::now();
-    let loaded = load(&arguments.scene.scene, &arguments.load_options())?;
+    let mut loaded = load(&arguments.scene.scene, &arguments.load_options())?;
+    loaded.scene.path.spectral |= arguments.spectral;
     let scene = arguments.selection.select(loaded.scene);
     let build_seconds = start.elapsed().as_secs_f64();
     for diagnosis in scene.diagnose() {

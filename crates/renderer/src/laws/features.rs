@@ -5,6 +5,7 @@ use core::sync::atomic::AtomicBool;
 use etendue_brdf::Bsdf;
 use etendue_math::glam::{DVec3, Vec3};
 use etendue_math::{Real, Spectrum};
+use etendue_scene::color::Primaries;
 use etendue_scene::geometry::Ray;
 use etendue_scene::material::{PreparedMaterials, Side, Varying};
 use etendue_scene::{Color, Scene};
@@ -70,7 +71,7 @@ fn an_albedo_without_a_closed_form_is_estimated() {
     let hit = scene.geometry.intersect(&ray).expect("the metal is below");
     let point = scene.geometry.surface_point(&ray, &hit);
     let mut varying = Varying::default();
-    let model = materials.at(metal, &point, Side::Front, &mut varying);
+    let model = materials.at(metal, &point, Side::Front, Primaries, &mut varying);
     let wo = Vec3::new(0.0, -1.0, 1.0) * core::f32::consts::FRAC_1_SQRT_2;
     assert!(model.albedo(wo).is_none(), "no closed form");
     let albedo = features(&scene, 20_000, settings(None, Strategy::Mis))[0].albedo.r;

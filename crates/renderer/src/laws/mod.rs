@@ -10,5 +10,6 @@ mod furnace;
 mod health;
 mod media;
 mod scenes;
+mod spectral;
 mod strategies;
 mod transport;

@@ -1,5 +1,6 @@
 //! Small scenes, and estimates with error bars.
 
+use etendue_brdf::fresnel::Dispersion;
 use etendue_brdf::{Distribution, Ior, Masking};
 use etendue_math::glam::DVec3;
 use etendue_math::{Real, Spectrum};
@@ -7,7 +8,9 @@ use etendue_scene::camera::{Camera, FieldOfView, FovAxis, Projection};
 use etendue_scene::film::{Film, ReconstructionFilter};
 use etendue_scene::geometry::{GeometryBuilder, Rectangle, Shape, Sphere, Transform};
 use etendue_scene::light::{AreaLight, ConstantLight, Light, LightId};
-use etendue_scene::material::{ConductorIndex, Material, MaterialId, Materials, Roughness};
+use etendue_scene::material::{
+    ConductorIndex, Material, MaterialId, Materials, RelativeDispersion, Roughness,
+};
 use etendue_scene::medium::{Boundary, Media, Medium, MediumId};
 use etendue_scene::scene::{PathSettings, SamplerKind, SamplingSettings, SceneParts, SurfaceInfo};
 use etendue_scene::texture::Textures;
@@ -38,25 +41,42 @@ impl Sketch {
 
     /// Smooth glass of index 1.5.
     pub(super) fn glass(&mut self) -> MaterialId {
+        let interface = self.interface(None, None);
+        self.material(interface)
+    }
+
+    /// Glass of index 1.5, or one that depends on the wavelength; rough by GGX facets of width `alpha`.
+    pub(super) fn interface(
+        &mut self,
+        dispersion: Option<Dispersion>,
+        alpha: Option<f32>,
+    ) -> Material {
         let white = self.textures.constant(Color::white());
-        self.material(Material::Dielectric {
+        let relative = |interior| Box::new(RelativeDispersion { interior, exterior: 1.0 });
+        Material::Dielectric {
             eta: Ior::new(1.5).expect("an index"),
-            roughness: None,
+            dispersion: dispersion.map(relative),
+            roughness: alpha.map(|alpha| self.facets(alpha)),
             specular_reflectance: white,
             specular_transmittance: white,
-        })
+        }
+    }
+
+    /// GGX facets.
+    fn facets(&mut self, alpha: f32) -> Roughness {
+        let alpha = self.textures.constant(Color::splat(alpha));
+        Roughness {
+            distribution: Distribution::Ggx,
+            masking: Masking::HeightCorrelated,
+            alpha_u: alpha,
+            alpha_v: alpha,
+        }
     }
 
     /// GGX facets of width `alpha`, each of which reflects everything.
     pub(super) fn rough_mirror(&mut self, alpha: f32) -> MaterialId {
         let white = self.textures.constant(Color::white());
-        let alpha = self.textures.constant(Color::splat(alpha));
-        let roughness = Roughness {
-            distribution: Distribution::Ggx,
-            masking: Masking::HeightCorrelated,
-            alpha_u: alpha,
-            alpha_v: alpha,
-        };
+        let roughness = self.facets(alpha);
         self.material(Material::Conductor {
             index: ConductorIndex::Mirror,
             roughness: Some(roughness),

@@ -5,6 +5,7 @@ use etendue_math::Spectrum;
 use etendue_math::glam::Vec3;
 use etendue_sampling::{Decision, Dimension, Sampler, mis};
 use etendue_scene::Color;
+use etendue_scene::color::Channels;
 use etendue_scene::geometry::{Rays, SurfacePoint};
 use etendue_scene::light::LightSample;
 
@@ -13,18 +14,18 @@ use crate::light_sampler::Receiver;
 use crate::settings::Strategy;
 use crate::statistics::RayCounts;
 
-impl<R: Rays> PathTracer<'_, '_, R> {
+impl<R: Rays, C: Channels> PathTracer<'_, '_, R, C> {
     /// An estimate, by one light sample, of the light scattered towards the camera.
     #[inline(always)]
     pub(super) fn direct_light<S: Sampler>(
         &self,
-        vertex: &Vertex<'_>,
+        vertex: &Vertex<'_, C>,
         points: &S,
         rays: &mut RayCounts,
-    ) -> Color {
+    ) -> C::Color {
         match self.unoccluded_light(vertex, points) {
             Some((light, sample)) if !self.occluded(vertex.point, &sample, rays) => light,
-            _ => Color::black(),
+            _ => C::Color::black(),
         }
     }
 
@@ -33,23 +34,23 @@ impl<R: Rays> PathTracer<'_, '_, R> {
     #[inline(always)]
     pub(super) fn unoccluded_light<S: Sampler>(
         &self,
-        vertex: &Vertex<'_>,
+        vertex: &Vertex<'_, C>,
         points: &S,
-    ) -> Option<(Color, LightSample)> {
+    ) -> Option<(C::Color, LightSample<C::Color>)> {
         if self.light_sampling == LightSampling::Useless || !vertex.bsdf.lobes().continuous {
             return None;
         }
-        let sample = self.sample_light(vertex.depth, &vertex.receiver, points)?;
+        let sample = self.sample_light(vertex.depth, &vertex.receiver, vertex.channels, points)?;
         let wi = vertex.point.shading.to_local(sample.direction);
         if self.is_inconsistent(vertex, sample.direction, wi) {
             return None;
         }
-        let (f, scattering_density) = vertex.bsdf.eval_pdf(vertex.wo, wi);
+        let (f, scattering_density) = vertex.eval_pdf(wi);
         let scale = match sample.density {
             Density::Delta(p) => 1.0 / p,
             Density::Continuous(p) => self.light_weight(p, scattering_density) / p,
         };
-        let light = f * sample.radiance * (scale * wi.z.abs());
+        let light = (f * sample.radiance).scale(scale * wi.z.abs());
         (!light.is_black()).then_some((light, sample))
     }
 
@@ -60,8 +61,9 @@ impl<R: Rays> PathTracer<'_, '_, R> {
         &self,
         depth: u16,
         receiver: &Receiver,
+        channels: C,
         points: &S,
-    ) -> Option<LightSample> {
+    ) -> Option<LightSample<C::Color>> {
         let dimension = |decision| Dimension::vertex(depth, decision);
         let u = if self.lights.count() > 1 {
             points.sample_1d(dimension(Decision::LightChoice))
@@ -70,8 +72,13 @@ impl<R: Rays> PathTracer<'_, '_, R> {
         };
         let choice = self.lights.choose(receiver, u)?;
         let u = points.sample_2d(dimension(Decision::LightPoint));
-        let mut sample =
-            self.scene.sample_light(choice.light, choice.primitive, receiver.position, u)?;
+        let mut sample = self.scene.sample_light(
+            choice.light,
+            choice.primitive,
+            receiver.position,
+            u,
+            channels,
+        )?;
         sample.density = match sample.density {
             Density::Continuous(_)
                 if sample.target.is_none() && self.several_infinite_lights == Several::Yes =>
@@ -79,7 +86,7 @@ impl<R: Rays> PathTracer<'_, '_, R> {
                 let (radiance, density) =
                     self.over_all_infinite_lights(Receiver { ..*receiver }, sample.direction);
                 return Some(LightSample {
-                    radiance,
+                    radiance: channels.light(radiance),
                     density: Density::Continuous(density),
                     ..sample
                 });
@@ -110,7 +117,12 @@ impl<R: Rays> PathTracer<'_, '_, R> {
     }
 
     #[inline(always)]
-    fn occluded(&self, point: &SurfacePoint, sample: &LightSample, rays: &mut RayCounts) -> bool {
+    fn occluded(
+        &self,
+        point: &SurfacePoint,
+        sample: &LightSample<C::Color>,
+        rays: &mut RayCounts,
+    ) -> bool {
         rays.shadow += 1;
         let ray = match sample.target {
             Some(target) => point.spawn_to(target),

@@ -4,6 +4,7 @@ use etendue_math::Spectrum;
 use etendue_math::glam::Vec3;
 use etendue_sampling::mis;
 use etendue_scene::Color;
+use etendue_scene::color::Channels;
 use etendue_scene::geometry::{Rays, SurfacePoint};
 use etendue_scene::light::LightId;
 
@@ -11,13 +12,13 @@ use super::{Arrival, PathTracer, Walk};
 use crate::light_sampler::Receiver;
 use crate::settings::Strategy;
 
-impl<R: Rays> PathTracer<'_, '_, R> {
+impl<R: Rays, C: Channels> PathTracer<'_, '_, R, C> {
     /// Light that the surface itself emits along the ray, weighted for how the ray was found.
     #[inline(always)]
-    pub(super) fn emitted(&self, walk: &Walk, point: &SurfacePoint) -> Color {
+    pub(super) fn emitted(&self, walk: &Walk<C>, point: &SurfacePoint) -> C::Color {
         let direction = walk.ray.direction;
-        let Some((light, radiance)) = self.scene.emitted(point, -direction) else {
-            return Color::black();
+        let Some((light, radiance)) = self.scene.emitted(point, -direction, walk.channels) else {
+            return C::Color::black();
         };
         let weight = match walk.arrival {
             Arrival::Certain => 1.0,
@@ -26,7 +27,7 @@ impl<R: Rays> PathTracer<'_, '_, R> {
                 self.weight_of_hit(receiver, density, light, point)
             }
         };
-        radiance * weight
+        radiance.scale(weight)
     }
 
     /// The weight of light that a scattered ray has found on a surface.
@@ -49,17 +50,18 @@ impl<R: Rays> PathTracer<'_, '_, R> {
 
     /// Light from infinitely far away, weighted for how the ray was found.
     #[inline(always)]
-    pub(super) fn escaped(&self, walk: &Walk) -> Color {
+    pub(super) fn escaped(&self, walk: &Walk<C>) -> C::Color {
         // A ray that ends at the far clipping plane has seen nothing yet, but only cameras have one.
         if self.hides_emitters(walk) || self.scene.infinite_lights().is_empty() {
-            return Color::black();
+            return C::Color::black();
         }
-        match walk.arrival {
+        let radiance = match walk.arrival {
             Arrival::Certain => self.scene.background(walk.ray.direction),
             Arrival::Scattered { receiver, density } => {
                 self.found_background(Receiver { ..receiver }, density, walk.ray.direction)
             }
-        }
+        };
+        walk.channels.light(radiance)
     }
 
     /// Light that a scattered ray has found by leaving the scene, weighted; out of line as well.

@@ -1,6 +1,7 @@
 //! Unidirectional path tracing.
 
 mod direct_light;
+mod dispersion;
 mod first_hit;
 mod found_light;
 mod scatter;
@@ -12,18 +13,19 @@ use etendue_brdf::Bsdf;
 use etendue_math::Spectrum;
 use etendue_math::glam::Vec3;
 use etendue_sampling::{Decision, Dimension};
+use etendue_scene::Scene;
+use etendue_scene::color::{Channels, Primaries};
 use etendue_scene::geometry::{Hit, Ray, Rays, SurfacePoint};
 use etendue_scene::light::Light;
 use etendue_scene::material::{PreparedBsdf, PreparedMaterials, Side, Varying};
 use etendue_scene::scene::PathSettings;
-use etendue_scene::{Color, Scene};
 
 use crate::light_sampler::{LightSampler, Receiver, Sides};
 use crate::settings::Strategy;
 use crate::statistics::RayCounts;
 
 pub(crate) use first_hit::FirstHit;
-pub(crate) use transport::{Surfaces, Transport, Volumes};
+pub(crate) use transport::{Prepared, Spectral, Surfaces, Transport, Volumes};
 
 /// Solves the rendering equation for one ray at a time.
 ///
@@ -41,10 +43,10 @@ pub(crate) use transport::{Surfaces, Transport, Volumes};
 /// in Mitsuba 3's `path`, pass-through surfaces included: each is a vertex of its own. With volumes
 /// they count as in its `volpath`: a surface that light passes straight on is no vertex.
 #[derive(Clone, Copy)]
-pub(crate) struct PathTracer<'a, 's, R> {
+pub(crate) struct PathTracer<'a, 's, R, C: Channels = Primaries> {
     rays: R,
     scene: &'s Scene,
-    materials: &'a PreparedMaterials<'s>,
+    materials: &'a PreparedMaterials<'s, C>,
     lights: &'a LightSampler,
     settings: PathSettings,
     strategy: Strategy,
@@ -85,42 +87,67 @@ enum View {
 }
 
 /// A surface that a path has met.
-struct Vertex<'a> {
+struct Vertex<'a, C: Channels> {
     /// Its address: the number of edges from the camera to here, those that only pass included.
     depth: u16,
     point: &'a SurfacePoint,
-    bsdf: &'a PreparedBsdf<'a>,
+    bsdf: &'a PreparedBsdf<'a, C>,
     /// Towards the camera, in the shading frame.
     wo: Vec3,
     receiver: Receiver,
+    /// Those of the path, and how they fare, as in [`Walk`].
+    channels: C,
+    ratios: C::Color,
 }
 
-impl Vertex<'_> {
+impl<C: Channels> Vertex<'_, C> {
     fn dimension(&self, decision: Decision) -> Dimension {
         Dimension::vertex(self.depth, decision)
     }
 }
 
 /// The state of a path under construction.
-struct Walk {
+struct Walk<C: Channels> {
     ray: Ray,
-    throughput: Color,
+    channels: C,
+    throughput: C::Color,
+    /// The density of the path so far as if drawn by each channel, relative to the mean over all, by which the throughput is
+    /// divided. All 1 where nothing that was drawn depends on the channel.
+    ratios: C::Color,
     /// Product of the relative indices of refraction crossed: η of the present medium.
     eta: f32,
     arrival: Arrival,
     view: View,
 }
 
-impl Walk {
+impl<C: Channels> Walk<C> {
     #[inline(always)]
-    fn from_camera(ray: Ray) -> Self {
+    fn from_camera(ray: Ray, channels: C) -> Self {
         Self {
             ray,
-            throughput: Color::white(),
+            channels,
+            throughput: C::Color::white(),
+            ratios: C::Color::white(),
             eta: 1.0,
             arrival: Arrival::Certain,
             view: View::Unobstructed,
         }
+    }
+
+    /// Takes account of an event drawn by one channel that has a density in each: 1 over the density with which the mixture of
+    /// all channels would have drawn it.
+    ///
+    /// ```text
+    /// 1 / mean(ratios · densities),   ratios ← ratios · densities / mean
+    /// ```
+    ///
+    /// The balance heuristic over the channels. Densities need a common scale only.
+    #[inline]
+    fn weigh(&mut self, densities: C::Color) -> f32 {
+        let joint = self.ratios * densities;
+        let per_mean = 1.0 / joint.mean();
+        self.ratios = joint.scale(per_mean);
+        per_mean
     }
 
     /// Goes on behind a surface in the same direction.
@@ -143,11 +170,11 @@ enum Fate {
     Ends,
 }
 
-impl<'a, 's, R: Rays> PathTracer<'a, 's, R> {
+impl<'a, 's, R: Rays, C: Channels> PathTracer<'a, 's, R, C> {
     pub(crate) fn new(
         rays: R,
         scene: &'s Scene,
-        materials: &'a PreparedMaterials<'s>,
+        materials: &'a PreparedMaterials<'s, C>,
         lights: &'a LightSampler,
         settings: PathSettings,
         strategy: Strategy,
@@ -179,7 +206,7 @@ impl<'a, 's, R: Rays> PathTracer<'a, 's, R> {
 
     /// The surface that the ray meets; a camera that must not see emitters looks through them.
     #[inline(always)]
-    fn next_surface(&self, walk: &mut Walk, rays: &mut RayCounts) -> Option<SurfacePoint> {
+    fn next_surface(&self, walk: &mut Walk<C>, rays: &mut RayCounts) -> Option<SurfacePoint> {
         loop {
             let hit = self.rays.intersect(&walk.ray)?;
             let point = self.scene.geometry.surface_point(&walk.ray, &hit);
@@ -191,7 +218,7 @@ impl<'a, 's, R: Rays> PathTracer<'a, 's, R> {
     }
 
     #[inline(always)]
-    fn hides_emitters(&self, walk: &Walk) -> bool {
+    fn hides_emitters(&self, walk: &Walk<C>) -> bool {
         self.settings.hide_emitters && walk.view == View::Unobstructed
     }
 
@@ -207,15 +234,16 @@ impl<'a, 's, R: Rays> PathTracer<'a, 's, R> {
         &'v self,
         depth: u16,
         point: &'v SurfacePoint,
-        direction: Vec3,
-        varying: &'v mut Varying<'v>,
-    ) -> Vertex<'v> {
-        let wo = point.shading.to_local(-direction);
+        walk: &Walk<C>,
+        varying: &'v mut Varying<'v, C>,
+    ) -> Vertex<'v, C> {
+        let Walk { channels, ratios, .. } = *walk;
+        let wo = point.shading.to_local(-walk.ray.direction);
         let material = self.scene.surfaces[point.shape.0 as usize].material;
-        let bsdf = self.materials.at(material, point, Side::of(wo), varying);
+        let bsdf = self.materials.at(material, point, Side::of(wo), channels, varying);
         let normal = if wo.z < 0.0 { -point.shading.n } else { point.shading.n };
         let sides = if bsdf.lobes().transmission { Sides::Both } else { Sides::Front };
         let receiver = Receiver { position: point.position, normal, sides };
-        Vertex { depth, point, bsdf, wo, receiver }
+        Vertex { depth, point, bsdf, wo, receiver, channels, ratios }
     }
 }

@@ -1,21 +1,22 @@
 //! Where a path goes on, and whether it does.
 
-use etendue_brdf::{Bsdf, Density};
+use etendue_brdf::Density;
 use etendue_math::Spectrum;
 use etendue_math::glam::Vec3;
 use etendue_sampling::{Decision, Dimension, Sampler};
+use etendue_scene::color::Channels;
 use etendue_scene::geometry::Rays;
 
 use super::{Arrival, Fate, PathTracer, Transport, Vertex, View, Walk};
 
-impl<R: Rays> PathTracer<'_, '_, R> {
+impl<R: Rays, C: Channels> PathTracer<'_, '_, R, C> {
     /// Chooses where the path goes on, and whether it does; `edges` lead from the camera to here.
     #[inline(always)]
-    pub(super) fn scatter<T: Transport, S: Sampler>(
+    pub(super) fn scatter<T: Transport<Channels = C>, S: Sampler>(
         &self,
-        vertex: &Vertex<'_>,
+        vertex: &Vertex<'_, C>,
         edges: u16,
-        walk: &mut Walk,
+        walk: &mut Walk<C>,
         points: &S,
     ) -> Fate {
         let u_lobe = if vertex.bsdf.chooses_lobe() {
@@ -24,13 +25,13 @@ impl<R: Rays> PathTracer<'_, '_, R> {
             0.0
         };
         let u = points.sample_2d(vertex.dimension(Decision::Direction));
-        let Some(sample) = vertex.bsdf.sample(vertex.wo, u_lobe, u) else { return Fate::Ends };
+        let Some(sample) = vertex.sample(u_lobe, u, walk, points) else { return Fate::Ends };
         walk.throughput = walk.throughput * sample.weight;
         walk.eta *= sample.eta;
         // A pass-through is the one delta direction that goes straight on.
         let is_straight = matches!(sample.density, Density::Delta(_)) && sample.wi == -vertex.wo;
         // Shadow rays have passed, too. A refracted ray may go straight on, but is no pass-through.
-        let passes = T::VOLUMES && is_straight && sample.eta == 1.0;
+        let passes = T::VOLUMES && self.settings.volumes && is_straight && sample.eta == 1.0;
         walk.arrival = match sample.density {
             Density::Delta(_) if passes => walk.arrival,
             Density::Delta(_) => Arrival::Certain,
@@ -55,7 +56,7 @@ impl<R: Rays> PathTracer<'_, '_, R> {
     /// Whether strict normals forbid a direction, given in world and local coordinates: it lies on
     /// different sides of the surface and of its interpolated normal.
     #[inline(always)]
-    pub(super) fn is_inconsistent(&self, vertex: &Vertex<'_>, world: Vec3, local: Vec3) -> bool {
+    pub(super) fn is_inconsistent(&self, vertex: &Vertex<'_, C>, world: Vec3, local: Vec3) -> bool {
         self.settings.strict_normals && world.dot(vertex.point.normal) * local.z <= 0.0
     }
 
@@ -71,7 +72,7 @@ impl<R: Rays> PathTracer<'_, '_, R> {
         &self,
         dimension: Dimension,
         edges: u16,
-        walk: &mut Walk,
+        walk: &mut Walk<C>,
         points: &S,
     ) -> Fate {
         let largest = walk.throughput.max_channel();

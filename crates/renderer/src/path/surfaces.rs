@@ -3,26 +3,33 @@
 use etendue_math::Spectrum;
 use etendue_sampling::Sampler;
 use etendue_scene::Color;
+use etendue_scene::color::Primaries;
 use etendue_scene::geometry::{Ray, Rays};
-use etendue_scene::material::Varying;
+use etendue_scene::material::{PreparedMaterials, Varying};
 
-use super::transport::{Surfaces, Transport};
+use super::transport::{Prepared, Surfaces, Transport};
 use super::{Fate, PathTracer, Walk};
 use crate::statistics::RayCounts;
 
 impl Transport for Surfaces {
     const VOLUMES: bool = false;
 
+    type Channels = Primaries;
+
+    fn materials<'r, 'a>(prepared: &'r Prepared<'a>) -> &'r PreparedMaterials<'a> {
+        &prepared.rgb
+    }
+
     #[inline(always)]
     fn radiance<S: Sampler, R: Rays>(
-        tracer: &PathTracer<'_, '_, R>,
+        tracer: &PathTracer<'_, '_, R, Primaries>,
         camera_ray: Ray,
         points: &S,
         rays: &mut RayCounts,
     ) -> Color {
         let longest = tracer.longest();
         let mut radiance = Color::black();
-        let mut walk = Walk::from_camera(camera_ray);
+        let mut walk = Walk::from_camera(camera_ray, Primaries);
         rays.camera += 1;
         for depth in 1..=longest {
             let Some(point) = tracer.next_surface(&mut walk, rays) else {
@@ -34,7 +41,7 @@ impl Transport for Surfaces {
                 break;
             }
             let mut varying = Varying::default();
-            let vertex = tracer.vertex(depth, &point, walk.ray.direction, &mut varying);
+            let vertex = tracer.vertex(depth, &point, &walk, &mut varying);
             if tracer.is_inconsistent(&vertex, -walk.ray.direction, vertex.wo) {
                 break;
             }

@@ -1,8 +1,10 @@
-//! What paths go through: surfaces alone, or volumes as well.
+//! What paths go through, and what they carry.
 
 use etendue_sampling::Sampler;
-use etendue_scene::Color;
+use etendue_scene::color::{Channels, Primaries, Wavelengths};
 use etendue_scene::geometry::{Ray, Rays};
+use etendue_scene::material::PreparedMaterials;
+use etendue_scene::{Color, Scene};
 
 use super::PathTracer;
 use crate::statistics::RayCounts;
@@ -10,14 +12,20 @@ use crate::statistics::RayCounts;
 /// A configuration of the path tracer, compiled apart from the others.
 ///
 /// Which one a scene needs is decided once per render, so that a scene without media runs code that
-/// knows of none.
+/// knows of none, and one without dispersion code that knows of no wavelengths.
 pub(crate) trait Transport {
     /// Whether there may be media, and surfaces that light passes straight on do not count.
     const VOLUMES: bool;
 
+    /// What paths carry.
+    type Channels: Channels;
+
+    /// The materials for these channels.
+    fn materials<'r, 'a>(prepared: &'r Prepared<'a>) -> &'r PreparedMaterials<'a, Self::Channels>;
+
     /// An estimate of the radiance that arrives along a ray of the camera.
     fn radiance<S: Sampler, R: Rays>(
-        tracer: &PathTracer<'_, '_, R>,
+        tracer: &PathTracer<'_, '_, R, Self::Channels>,
         camera_ray: Ray,
         points: &S,
         rays: &mut RayCounts,
@@ -29,3 +37,22 @@ pub(crate) enum Surfaces {}
 
 /// Participating media between surfaces, and surfaces that bound them.
 pub(crate) enum Volumes {}
+
+/// The same, followed by a few wavelengths at a time.
+pub(crate) enum Spectral {}
+
+/// The materials of a scene for each kind of channels.
+pub(crate) struct Prepared<'a> {
+    pub(crate) rgb: PreparedMaterials<'a, Primaries>,
+    pub(crate) spectral: PreparedMaterials<'a, Wavelengths>,
+}
+
+impl<'a> Prepared<'a> {
+    pub(crate) fn new(scene: &'a Scene) -> Self {
+        let Scene { materials, textures, geometry, .. } = scene;
+        Self {
+            rgb: PreparedMaterials::new(materials, textures, geometry),
+            spectral: PreparedMaterials::new(materials, textures, geometry),
+        }
+    }
+}

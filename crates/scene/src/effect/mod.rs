@@ -37,6 +37,8 @@ pub enum Effect {
     RoughReflection,
     /// Refraction by microfacets.
     RoughTransmission,
+    /// Glass that parts white light into its colours.
+    Dispersion,
     /// Disney's material of many lobes.
     Principled,
     /// Surfaces that are partly not there.
@@ -69,13 +71,15 @@ pub enum Effect {
     DepthOfField,
     /// Emitters that the camera looks through.
     HiddenEmitters,
+    /// Paths that carry wavelengths although nothing parts them.
+    SpectralColours,
     /// No light where geometric and interpolated normals disagree.
     StrictNormals,
 }
 
 impl Effect {
     /// The whole vocabulary.
-    pub const ALL: [Self; 29] = [
+    pub const ALL: [Self; 31] = [
         Self::IndirectLight,
         Self::AreaLight,
         Self::PointLight,
@@ -88,6 +92,7 @@ impl Effect {
         Self::DeltaTransmission,
         Self::RoughReflection,
         Self::RoughTransmission,
+        Self::Dispersion,
         Self::Principled,
         Self::OpacityMask,
         Self::Blend,
@@ -104,6 +109,7 @@ impl Effect {
         Self::Instancing,
         Self::DepthOfField,
         Self::HiddenEmitters,
+        Self::SpectralColours,
         Self::StrictNormals,
     ];
 
@@ -122,6 +128,7 @@ impl Effect {
             Self::DeltaTransmission => "delta-transmission",
             Self::RoughReflection => "rough-reflection",
             Self::RoughTransmission => "rough-transmission",
+            Self::Dispersion => "dispersion",
             Self::Principled => "principled",
             Self::OpacityMask => "opacity-mask",
             Self::Blend => "blend",
@@ -138,6 +145,7 @@ impl Effect {
             Self::Instancing => "instancing",
             Self::DepthOfField => "depth-of-field",
             Self::HiddenEmitters => "hidden-emitters",
+            Self::SpectralColours => "spectral-colours",
             Self::StrictNormals => "strict-normals",
         }
     }
@@ -172,6 +180,9 @@ impl Effect {
             Self::RoughTransmission => {
                 "the same with a choice between two sides, and light samples from both"
             }
+            Self::Dispersion => {
+                "four wavelengths instead of three primaries all over the scene, models made at every surface met"
+            }
             Self::Principled => {
                 "a model made twice, a random number and up to four lobes evaluated per surface met"
             }
@@ -202,6 +213,9 @@ impl Effect {
             Self::Instancing => "a ray transformed and a second hierarchy entered per instance met",
             Self::DepthOfField => "two random numbers and a point on the lens per sample",
             Self::HiddenEmitters => "a further ray behind every emitter that the camera sees",
+            Self::SpectralColours => {
+                "four wavelengths instead of three primaries all over the scene, models made at every surface met"
+            }
             Self::StrictNormals => "a comparison per direction",
         }
     }

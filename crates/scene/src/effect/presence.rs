@@ -66,6 +66,7 @@ impl Scene {
                 path.max_depth.is_none_or(|d| d > 2) && !self.surfaces.is_empty(),
             ),
             (Effect::HiddenEmitters, path.hide_emitters),
+            (Effect::SpectralColours, path.spectral),
             (Effect::StrictNormals, path.strict_normals),
         ];
         causes.extend(
@@ -78,6 +79,9 @@ impl Scene {
             let Some(mut material) = self.materials.get(id).cloned() else { continue };
             let element = Element::Material(id);
             causes.extend(of_surface(&material).map(|effect| (effect, element)));
+            if material.disperses() {
+                causes.push((Effect::Dispersion, element));
+            }
             let lobes = of_lobes(&mut material);
             let lobes = lobes.filter(|(_, factor)| !self.textures.is_black(**factor));
             causes.extend(lobes.map(|(effect, _)| (effect, element)));

@@ -18,6 +18,7 @@ impl Scene {
     ///
     /// * light: lights are not there, shapes that emit are dark, paths end at the second edge without indirect light;
     /// * reflection and transmission: the lobe is black, and a surface that has no other one is black altogether;
+    /// * glass has the index of the yellow line of helium for every wavelength, and paths carry RGB;
     /// * principled materials are diffuse; surfaces with opacity masks are whole, those that let light pass are black;
     ///   of two that are blended the heavier one is there; normals are those of the shape;
     /// * textures: their mean is everywhere, or 1 times the scale of a mesh attribute;
@@ -30,6 +31,7 @@ impl Scene {
         if out(Effect::IndirectLight) {
             self.path.max_depth = Some(self.path.max_depth.map_or(2, |depth| depth.min(2)));
         }
+        self.path.spectral &= !out(Effect::SpectralColours);
         self.path.hide_emitters &= !out(Effect::HiddenEmitters);
         self.path.strict_normals &= !out(Effect::StrictNormals);
         self.retain_lights(|light| !out(of_light(light)));
@@ -95,6 +97,10 @@ fn changed(
         });
     }
     let mut changed = material.clone();
+    let is_grey = material.disperses() && out(Effect::Dispersion);
+    if let (true, Material::Dielectric { dispersion, .. }) = (is_grey, &mut changed) {
+        *dispersion = None;
+    }
     let (mut lobes, mut left_out) = (0, 0);
     for (effect, factor) in of_lobes(&mut changed) {
         lobes += 1;
@@ -108,7 +114,7 @@ fn changed(
         Material::Plastic { .. } | Material::Principled(_) | Material::PrincipledThin(_)
     );
     match left_out {
-        0 => None,
+        0 => is_grey.then_some(changed),
         n if n == lobes && !has_base => Some(absorber),
         _ => Some(changed),
     }

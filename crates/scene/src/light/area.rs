@@ -5,7 +5,7 @@ use etendue_math::glam::Vec3;
 use etendue_math::{Real, Spectrum, Vector3};
 
 use super::LightSample;
-use crate::Color;
+use crate::color::Channels;
 use crate::geometry::{Shape, ShapeId, SurfacePoint};
 use crate::texture::{TextureId, Textures};
 
@@ -22,19 +22,20 @@ impl AreaLight {
     /// A point on one primitive of the shape, as [`Shape::sample_from`] draws it; `None` where it
     /// shows its back.
     #[inline(always)]
-    pub(crate) fn sample(
+    pub(crate) fn sample<C: Channels>(
         self,
         shape: &Shape,
         textures: &Textures,
         primitive: u32,
         reference: Vec3,
         u: [f32; 2],
-    ) -> Option<LightSample> {
+        channels: C,
+    ) -> Option<LightSample<C::Color>> {
         let (point, pdf) = shape.sample_from(primitive, reference, u)?;
         let to_light = point.position - reference;
         // Written so that NaN is refused; the density is 0 where the length is.
         let shows_front = to_light.dot(point.normal) < 0.0;
-        let radiance = textures.color(self.radiance, point.uv);
+        let radiance = textures.light(self.radiance, point.uv, channels);
         if !shows_front || radiance.is_black() {
             return None;
         }
@@ -48,13 +49,15 @@ impl AreaLight {
 
     /// Radiance that leaves a point of the shape towards `direction`; `None` on its back.
     #[inline(always)]
-    pub(crate) fn emitted(
+    pub(crate) fn emitted<C: Channels>(
         self,
         textures: &Textures,
         point: &SurfacePoint,
         direction: Vec3,
-    ) -> Option<Color> {
-        (direction.dot(point.normal) > 0.0).then(|| textures.color(self.radiance, point.uv))
+        channels: C,
+    ) -> Option<C::Color> {
+        (direction.dot(point.normal) > 0.0)
+            .then(|| textures.light(self.radiance, point.uv, channels))
     }
 
     /// Power Φ = π A L of an area A in m², with the mean of the texture, in W.

@@ -71,14 +71,14 @@ impl Light {
 
 /// Light that arrives at a point from a sampled direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LightSample {
+pub struct LightSample<S = Color> {
     /// Unit vector towards the light.
     pub direction: Vec3,
     /// The point on the light, moved off its surface already; `None` for a light infinitely far.
     pub target: Option<Vec3>,
     /// Radiance from there in W sr⁻¹ m⁻²; for a [`Density::Delta`] the irradiance in W m⁻² on a
     /// surface that faces it. What lies between is not considered.
-    pub radiance: Color,
+    pub radiance: S,
     /// How likely the direction was, given the light and its primitive.
     pub density: Density<f32>,
 }

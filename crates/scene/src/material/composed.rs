@@ -5,15 +5,15 @@ use etendue_math::glam::Vec3;
 
 use super::perturbed::Perturbed;
 use super::{MaterialId, Materials, PreparedBsdf, Side};
-use crate::Color;
+use crate::color::Channels;
 use crate::texture::{TexturePoint, Textures};
 
 /// A material made of others, with what they are to be looked up with.
 ///
 /// The parts are prepared in each call: how deep they nest is up to the scene, and a model of fixed size cannot hold them.
 #[derive(Clone, Copy, Debug)]
-pub struct Composed<'a> {
-    parts: Parts<'a>,
+pub struct Composed<'a, C: Channels> {
+    parts: Parts<'a, C>,
     how: Composition,
 }
 
@@ -28,21 +28,22 @@ pub(super) enum Composition {
 
 /// What parts are prepared from.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Parts<'a> {
+pub(super) struct Parts<'a, C: Channels> {
     pub(super) materials: &'a Materials,
     pub(super) textures: &'a Textures,
     pub(super) point: TexturePoint<'a>,
+    pub(super) channels: C,
 }
 
-impl<'a> Parts<'a> {
+impl<'a, C: Channels> Parts<'a, C> {
     /// A part seen from the side of `wo`, a direction in its own frame.
-    fn part(&self, id: MaterialId, wo: Vec3) -> PreparedBsdf<'a> {
-        self.materials.prepare(id, self.textures, self.point, Side::of(wo))
+    fn part(&self, id: MaterialId, wo: Vec3) -> PreparedBsdf<'a, C> {
+        self.materials.prepare(id, self.textures, self.point, Side::of(wo), self.channels)
     }
 }
 
-impl<'a> Composed<'a> {
-    pub(super) fn new(parts: Parts<'a>, how: Composition) -> Self {
+impl<'a, C: Channels> Composed<'a, C> {
+    pub(super) fn new(parts: Parts<'a, C>, how: Composition) -> Self {
         Self { parts, how }
     }
 
@@ -56,13 +57,13 @@ impl<'a> Composed<'a> {
         [first, second]: [MaterialId; 2],
         weight: Opacity<f32>,
         wo: Vec3,
-    ) -> Blend<PreparedBsdf<'a>, PreparedBsdf<'a>> {
+    ) -> Blend<PreparedBsdf<'a, C>, PreparedBsdf<'a, C>> {
         Blend::new(self.parts.part(first, wo), self.parts.part(second, wo), weight)
     }
 }
 
-impl Bsdf for Composed<'_> {
-    type Color = Color;
+impl<C: Channels> Bsdf for Composed<'_, C> {
+    type Color = C::Color;
 
     /// Those of either side: which one a part is seen from depends on the direction.
     fn lobes(&self) -> Lobes {
@@ -77,7 +78,7 @@ impl Bsdf for Composed<'_> {
         }
     }
 
-    fn eval_pdf(&self, wo: Vec3, wi: Vec3) -> (Color, f32) {
+    fn eval_pdf(&self, wo: Vec3, wi: Vec3) -> (C::Color, f32) {
         match self.how {
             Composition::Blend { parts, weight } => self.blend(parts, weight, wo).eval_pdf(wo, wi),
             Composition::Perturbed { nested, perturbed } => {
@@ -87,7 +88,7 @@ impl Bsdf for Composed<'_> {
         }
     }
 
-    fn sample(&self, wo: Vec3, u_lobe: f32, u: [f32; 2]) -> Option<Sample<Color>> {
+    fn sample(&self, wo: Vec3, u_lobe: f32, u: [f32; 2]) -> Option<Sample<C::Color>> {
         match self.how {
             Composition::Blend { parts, weight } => {
                 self.blend(parts, weight, wo).sample(wo, u_lobe, u)
@@ -100,7 +101,7 @@ impl Bsdf for Composed<'_> {
     }
 
     /// None in another frame, where part of the light goes to the wrong side.
-    fn albedo(&self, wo: Vec3) -> Option<Color> {
+    fn albedo(&self, wo: Vec3) -> Option<C::Color> {
         match self.how {
             Composition::Blend { parts, weight } => self.blend(parts, weight, wo).albedo(wo),
             Composition::Perturbed { .. } => None,
@@ -108,7 +109,7 @@ impl Bsdf for Composed<'_> {
     }
 
     /// What passes straight on does so whatever the normal.
-    fn pass_through(&self, wo: Vec3) -> Color {
+    fn pass_through(&self, wo: Vec3) -> C::Color {
         match self.how {
             Composition::Blend { parts, weight } => self.blend(parts, weight, wo).pass_through(wo),
             Composition::Perturbed { nested, .. } => self.parts.part(nested, wo).pass_through(wo),

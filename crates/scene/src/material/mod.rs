@@ -4,6 +4,7 @@
 //! reflection model there, a [`PreparedBsdf`].
 
 mod composed;
+mod dispersive;
 mod model;
 mod perturbed;
 mod prepare;
@@ -22,6 +23,7 @@ use etendue_brdf::{
 };
 
 pub use composed::Composed;
+pub use dispersive::{Dispersed, Dispersive, RelativeDispersion};
 pub use model::{Model, PrincipledModel, PrincipledThinModel};
 pub use perturbed::Perturbation;
 pub use prepared::{PreparedBsdf, Side};
@@ -57,6 +59,8 @@ pub enum Material {
     Dielectric {
         /// Index of the medium behind the surface relative to the one in front.
         eta: Ior<f32>,
+        /// The same index for every wavelength; none where it is that of all.
+        dispersion: Option<Box<RelativeDispersion>>,
         /// None for a smooth one.
         roughness: Option<Roughness>,
         /// Factor of reflected light, 1 physically.
@@ -311,7 +315,7 @@ impl Materials {
             | Some(Material::Null | Material::Mask { .. } | Material::ThinDielectric { .. }) => {
                 true
             }
-            Some(Material::Dielectric { eta, .. }) => eta.is_matched(),
+            Some(Material::Dielectric { eta, dispersion: None, .. }) => eta.is_matched(),
             // A material refers to earlier ones only: this ends.
             Some(material) => material.nested().any(|part| self.may_pass(part)),
         }
@@ -374,6 +378,11 @@ impl Material {
             Self::TwoSided { .. } | Self::Null => Vec::new(),
         };
         textures.into_iter()
+    }
+
+    /// Whether it refracts light of different wavelengths into different directions.
+    pub fn disperses(&self) -> bool {
+        matches!(self, Self::Dielectric { dispersion: Some(_), .. })
     }
 
     /// The materials that it is made of.

@@ -5,44 +5,47 @@ use etendue_brdf::{
     PrincipledParameters, PrincipledThin, PrincipledThinParameters, RoughConductor,
     RoughDielectric, RoughPlastic, Sample, SmoothConductor, SmoothDielectric, ThinDielectric,
 };
+use etendue_math::Spectrum;
 use etendue_math::glam::Vec3;
 
-use super::Composed;
-use crate::Color;
+use super::{Composed, Dispersive};
+use crate::color::{Channels, Primaries};
 
 /// A reflection model with its parameters at one point.
 ///
 /// An enumeration, because a call through a table of functions cannot be inlined.
 #[derive(Clone, Copy, Debug)]
-pub enum Model<'a> {
+pub enum Model<'a, C: Channels = Primaries> {
     /// Ideal diffuse.
-    Lambert(Lambert<Color>),
+    Lambert(Lambert<C::Color>),
     /// Rough diffuse with interreflection.
-    OrenNayar(OrenNayar<Color>),
+    OrenNayar(OrenNayar<C::Color>),
     /// Rough diffuse, simplified.
-    OrenNayarQualitative(OrenNayarQualitative<Color>),
+    OrenNayarQualitative(OrenNayarQualitative<C::Color>),
     /// A smooth interface of transparent media.
-    SmoothDielectric(SmoothDielectric<Color>),
+    SmoothDielectric(SmoothDielectric<C::Color>),
     /// A rough interface of transparent media.
-    RoughDielectric(RoughDielectric<Color>),
+    RoughDielectric(RoughDielectric<C::Color>),
+    /// A smooth or rough interface whose index depends on the wavelength.
+    Dispersive(Dispersive<C::Color>),
     /// A pane without thickness.
-    ThinDielectric(ThinDielectric<Color>),
+    ThinDielectric(ThinDielectric<C::Color>),
     /// A polished metal.
-    SmoothConductor(SmoothConductor<Color>),
+    SmoothConductor(SmoothConductor<C::Color>),
     /// A rough metal.
-    RoughConductor(RoughConductor<Color>),
+    RoughConductor(RoughConductor<C::Color>),
     /// A diffuse base under a smooth interface.
-    Plastic(Plastic<Color>),
+    Plastic(Plastic<C::Color>),
     /// A diffuse base under a rough interface.
-    RoughPlastic(RoughPlastic<'a, Color>),
+    RoughPlastic(RoughPlastic<'a, C::Color>),
     /// Disney's material.
-    Principled(PrincipledModel),
+    Principled(PrincipledModel<C::Color>),
     /// Disney's sheet.
-    PrincipledThin(PrincipledThinModel),
+    PrincipledThin(PrincipledThinModel<C::Color>),
     /// Made of other materials.
-    Composed(Composed<'a>),
+    Composed(Composed<'a, C>),
     /// Nothing.
-    Null(Null<Color>),
+    Null(Null<C::Color>),
 }
 
 /// [`Principled`] as its parameters.
@@ -50,17 +53,17 @@ pub enum Model<'a> {
 /// The lobes take twice the memory of any other model. They are put together in each call, so that what the others
 /// are moved and stored as stays small.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PrincipledModel(pub PrincipledParameters<Color>);
+pub struct PrincipledModel<S: Spectrum>(pub PrincipledParameters<S>);
 
 /// [`PrincipledThin`] as its parameters, like [`PrincipledModel`].
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PrincipledThinModel(pub PrincipledThinParameters<Color>);
+pub struct PrincipledThinModel<S: Spectrum>(pub PrincipledThinParameters<S>);
 
 /// Implements [`Bsdf`] for the parameters of a model by making the model.
 macro_rules! made_in_each_call {
     ($parameters:ident: $model:ident) => {
-        impl Bsdf for $parameters {
-            type Color = Color;
+        impl<S: Spectrum<Real = f32>> Bsdf for $parameters<S> {
+            type Color = S;
 
             #[inline]
             fn lobes(&self) -> Lobes {
@@ -68,17 +71,17 @@ macro_rules! made_in_each_call {
             }
 
             #[inline]
-            fn eval_pdf(&self, wo: Vec3, wi: Vec3) -> (Color, f32) {
+            fn eval_pdf(&self, wo: Vec3, wi: Vec3) -> (S, f32) {
                 $model::clamped(self.0).eval_pdf(wo, wi)
             }
 
             #[inline]
-            fn sample(&self, wo: Vec3, u_lobe: f32, u: [f32; 2]) -> Option<Sample<Color>> {
+            fn sample(&self, wo: Vec3, u_lobe: f32, u: [f32; 2]) -> Option<Sample<S>> {
                 $model::clamped(self.0).sample(wo, u_lobe, u)
             }
 
             #[inline]
-            fn albedo(&self, wo: Vec3) -> Option<Color> {
+            fn albedo(&self, wo: Vec3) -> Option<S> {
                 $model::clamped(self.0).albedo(wo)
             }
         }
@@ -88,7 +91,7 @@ macro_rules! made_in_each_call {
 made_in_each_call!(PrincipledModel: Principled);
 made_in_each_call!(PrincipledThinModel: PrincipledThin);
 
-impl Model<'_> {
+impl<C: Channels> Model<'_, C> {
     /// Whether sampling chooses among several lobes.
     #[inline]
     pub(super) fn chooses_lobe(&self) -> bool {
@@ -101,6 +104,7 @@ impl Model<'_> {
             | Self::Null(_) => false,
             Self::SmoothDielectric(_)
             | Self::RoughDielectric(_)
+            | Self::Dispersive(_)
             | Self::ThinDielectric(_)
             | Self::Plastic(_)
             | Self::RoughPlastic(_)
@@ -118,8 +122,8 @@ impl Model<'_> {
 /// longer ones.
 macro_rules! forward_bsdf {
     ($enum:ident: $first:ident, $($variant:ident),+) => {
-        impl Bsdf for $enum<'_> {
-            type Color = Color;
+        impl<C: Channels> Bsdf for $enum<'_, C> {
+            type Color = C::Color;
 
             #[inline]
             fn lobes(&self) -> Lobes {
@@ -130,7 +134,7 @@ macro_rules! forward_bsdf {
             }
 
             #[inline(always)]
-            fn eval_pdf(&self, wo: Vec3, wi: Vec3) -> (Color, f32) {
+            fn eval_pdf(&self, wo: Vec3, wi: Vec3) -> (C::Color, f32) {
                 // Taken apart and put together again, here and by `?` below: what is returned from
                 // here is not where the calls return it, and need not be in memory.
                 let (f, pdf) = match self {
@@ -141,7 +145,7 @@ macro_rules! forward_bsdf {
             }
 
             #[inline(always)]
-            fn sample(&self, wo: Vec3, u_lobe: f32, u: [f32; 2]) -> Option<Sample<Color>> {
+            fn sample(&self, wo: Vec3, u_lobe: f32, u: [f32; 2]) -> Option<Sample<C::Color>> {
                 Some(match self {
                     Self::$first(model) => model.sample(wo, u_lobe, u)?,
                     others => others.sample_of_others(wo, u_lobe, u)?,
@@ -149,7 +153,7 @@ macro_rules! forward_bsdf {
             }
 
             #[inline]
-            fn albedo(&self, wo: Vec3) -> Option<Color> {
+            fn albedo(&self, wo: Vec3) -> Option<C::Color> {
                 match self {
                     Self::$first(model) => model.albedo(wo),
                     $(Self::$variant(model) => model.albedo(wo)),+
@@ -157,7 +161,7 @@ macro_rules! forward_bsdf {
             }
 
             #[inline]
-            fn pass_through(&self, wo: Vec3) -> Color {
+            fn pass_through(&self, wo: Vec3) -> C::Color {
                 match self {
                     Self::$first(model) => model.pass_through(wo),
                     $(Self::$variant(model) => model.pass_through(wo)),+
@@ -165,9 +169,9 @@ macro_rules! forward_bsdf {
             }
         }
 
-        impl $enum<'_> {
+        impl<C: Channels> $enum<'_, C> {
             #[inline(never)]
-            fn eval_pdf_of_others(&self, wo: Vec3, wi: Vec3) -> (Color, f32) {
+            fn eval_pdf_of_others(&self, wo: Vec3, wi: Vec3) -> (C::Color, f32) {
                 match self {
                     Self::$first(model) => model.eval_pdf(wo, wi),
                     $(Self::$variant(model) => model.eval_pdf(wo, wi)),+
@@ -180,7 +184,7 @@ macro_rules! forward_bsdf {
                 wo: Vec3,
                 u_lobe: f32,
                 u: [f32; 2],
-            ) -> Option<Sample<Color>> {
+            ) -> Option<Sample<C::Color>> {
                 match self {
                     Self::$first(model) => model.sample(wo, u_lobe, u),
                     $(Self::$variant(model) => model.sample(wo, u_lobe, u)),+
@@ -196,6 +200,7 @@ forward_bsdf!(
     OrenNayarQualitative,
     SmoothDielectric,
     RoughDielectric,
+    Dispersive,
     ThinDielectric,
     SmoothConductor,
     RoughConductor,
@@ -210,6 +215,7 @@ forward_bsdf!(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Color;
 
     #[test]
     fn a_model_is_no_larger_than_rough_glass() {

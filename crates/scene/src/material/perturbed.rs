@@ -4,8 +4,6 @@ use etendue_brdf::{Bsdf, Density, Sample};
 use etendue_math::glam::Vec3;
 use etendue_math::{Frame, Real, Spectrum, Vector3};
 
-use crate::Color;
-
 /// A normal in the local shading frame in place of `+z`, and how the light that disagrees is treated.
 ///
 /// ```text
@@ -103,10 +101,14 @@ impl Seen {
     }
 
     /// Value and density of the nested model, `part`, seen from here.
-    pub(super) fn eval_pdf(&self, part: &impl Bsdf<Color = Color>, wi: Vec3) -> (Color, f32) {
+    pub(super) fn eval_pdf<S: Spectrum<Real = f32>>(
+        &self,
+        part: &impl Bsdf<Color = S>,
+        wi: Vec3,
+    ) -> (S, f32) {
         let inner = self.frame.to_local(wi);
         if !same_side(wi, inner) {
-            return (Color::black(), 0.0);
+            return (S::black(), 0.0);
         }
         let (f, pdf) = part.eval_pdf(self.wo(), inner);
         let scale = inner.z.abs() * self.shadowing_over_cosine(wi);
@@ -114,12 +116,12 @@ impl Seen {
     }
 
     /// A direction of the nested model, `part`, in the frame of the surface; `None` where it leaves to the wrong side.
-    pub(super) fn sample(
+    pub(super) fn sample<S: Spectrum<Real = f32>>(
         &self,
-        part: &impl Bsdf<Color = Color>,
+        part: &impl Bsdf<Color = S>,
         u_lobe: f32,
         u: [f32; 2],
-    ) -> Option<Sample<Color>> {
+    ) -> Option<Sample<S>> {
         let wo = self.wo();
         let sample = part.sample(wo, u_lobe, u)?;
         // What passes straight goes on exactly, not to a rounding of two frames.
@@ -141,6 +143,7 @@ fn same_side(wi: Vec3, inner: Vec3) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Color;
     use etendue_brdf::{Lambert, Null, Reflectance};
 
     const WO: Vec3 = Vec3::new(0.6, 0.0, 0.8);

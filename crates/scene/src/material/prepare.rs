@@ -13,10 +13,10 @@ use super::model::{PrincipledModel, PrincipledThinModel};
 use super::perturbed::Perturbed;
 use super::prepared::Placed;
 use super::{
-    ConductorIndex, Material, MaterialId, Materials, Model, OrenNayarForm, PlasticSurface,
-    PreparedBsdf, Roughness, Side,
+    ConductorIndex, Dispersive, Material, MaterialId, Materials, Model, OrenNayarForm,
+    PlasticSurface, PreparedBsdf, Roughness, Side,
 };
-use crate::Color;
+use crate::color::Channels;
 use crate::geometry::SurfacePoint;
 use crate::texture::{TextureId, TexturePoint, Textures};
 
@@ -26,16 +26,17 @@ const LEAST_ALPHA: f32 = 1e-4;
 
 /// The textures at one point of a surface.
 #[derive(Clone, Copy)]
-pub(super) struct At<'a> {
+pub(super) struct At<'a, C> {
     materials: &'a Materials,
     textures: &'a Textures,
     point: TexturePoint<'a>,
+    channels: C,
 }
 
-impl<'a> At<'a> {
+impl<'a, C: Channels> At<'a, C> {
     #[inline]
-    pub(super) fn color(self, id: TextureId) -> Color {
-        self.textures.color(id, self.point)
+    pub(super) fn color(self, id: TextureId) -> C::Color {
+        self.textures.matter(id, self.point, self.channels)
     }
 
     #[inline]
@@ -43,9 +44,9 @@ impl<'a> At<'a> {
         self.textures.value(id, self.point)
     }
 
-    fn composed(self, how: Composition) -> Model<'a> {
-        let Self { materials, textures, point } = self;
-        Model::Composed(Composed::new(Parts { materials, textures, point }, how))
+    fn composed(self, how: Composition) -> Model<'a, C> {
+        let Self { materials, textures, point, channels } = self;
+        Model::Composed(Composed::new(Parts { materials, textures, point, channels }, how))
     }
 
     /// The normal, in the shading frame and of any length, of bumps of a height; `+z` where the surface is not known.
@@ -70,7 +71,7 @@ impl<'a> At<'a> {
     }
 
     #[inline]
-    fn reflectance(self, id: TextureId) -> Reflectance<Color> {
+    fn reflectance(self, id: TextureId) -> Reflectance<C::Color> {
         Reflectance::clamped(self.color(id))
     }
 
@@ -82,7 +83,7 @@ impl<'a> At<'a> {
     }
 
     #[inline]
-    fn complex_ior(self, index: ConductorIndex) -> ComplexIor<Color> {
+    fn complex_ior(self, index: ConductorIndex) -> ComplexIor<C::Color> {
         match index {
             ConductorIndex::Mirror => ComplexIor::perfect(),
             ConductorIndex::Complex { eta, k } => {
@@ -97,14 +98,15 @@ impl Materials {
     ///
     /// A material that does not exist is [`Material::Null`].
     #[inline(never)]
-    pub fn prepare<'a>(
+    pub fn prepare<'a, C: Channels>(
         &'a self,
         id: MaterialId,
         textures: &'a Textures,
         point: TexturePoint<'a>,
         side: Side,
-    ) -> PreparedBsdf<'a> {
-        let at = At { materials: self, textures, point };
+        channels: C,
+    ) -> PreparedBsdf<'a, C> {
+        let at = At { materials: self, textures, point, channels };
         let mut material = self.get(id);
         let mut opacity = 1.0;
         // Masks of masks end: each refers to a material before itself.
@@ -126,7 +128,7 @@ impl Materials {
 
 /// The model of a material that is made of no others.
 #[inline]
-fn model<'a>(material: Option<&'a Material>, at: At<'a>) -> Model<'a> {
+fn model<'a, C: Channels>(material: Option<&'a Material>, at: At<'a, C>) -> Model<'a, C> {
     let Some(material) = material else { return Model::Null(Null::new()) };
     match *material {
         Material::Diffuse { reflectance } => {
@@ -144,12 +146,19 @@ fn model<'a>(material: Option<&'a Material>, at: At<'a>) -> Model<'a> {
         }
         Material::Dielectric {
             eta,
+            ref dispersion,
             ref roughness,
             specular_reflectance,
             specular_transmittance,
         } => {
             let ks = at.reflectance(specular_reflectance);
             let kt = at.reflectance(specular_transmittance);
+            if let Some(dispersion) = dispersion
+                && let Some(indices) = at.channels.indices(|nm| dispersion.index(nm))
+            {
+                let facets = roughness.as_ref().map(|roughness| at.facets(roughness));
+                return Model::Dispersive(Dispersive::new(indices, facets).with_factors(ks, kt));
+            }
             let smooth = SmoothDielectric::new(eta).with_factors(ks, kt);
             let Some(roughness) = roughness else { return Model::SmoothDielectric(smooth) };
             match RoughDielectric::new(eta, at.facets(roughness)) {
@@ -200,7 +209,7 @@ fn model<'a>(material: Option<&'a Material>, at: At<'a>) -> Model<'a> {
             at.composed(Composition::Blend { parts, weight })
         }
         Material::NormalMap { normal, options, nested } => {
-            let color = at.color(normal);
+            let color = at.textures.color(normal, at.point);
             let normal = Vec3::from(color.to_array()) * 2.0 - Vec3::ONE;
             at.composed(Composition::Perturbed { nested, perturbed: Perturbed { normal, options } })
         }

@@ -3,6 +3,7 @@
 use alloc::vec::Vec;
 
 use super::{Material, MaterialId, Materials, PreparedBsdf, Side};
+use crate::color::{Channels, Primaries};
 use crate::geometry::{Geometry, Located, SurfacePoint};
 use crate::texture::{Texture, Textures};
 
@@ -11,11 +12,11 @@ use crate::texture::{Texture, Textures};
 ///
 /// Gives the same reflection models as [`Materials::prepare`].
 #[derive(Debug)]
-pub struct PreparedMaterials<'a> {
+pub struct PreparedMaterials<'a, C: Channels = Primaries> {
     materials: &'a Materials,
     textures: &'a Textures,
     geometry: &'a Geometry,
-    readiness: Vec<Readiness<'a>>,
+    readiness: Vec<Readiness<'a, C>>,
 }
 
 /// How much of a material is known beforehand.
@@ -24,9 +25,9 @@ pub struct PreparedMaterials<'a> {
     clippy::large_enum_variant,
     reason = "a scene has few materials, and a look-up at every hit should not follow a pointer"
 )]
-enum Readiness<'a> {
+enum Readiness<'a, C: Channels> {
     /// The same everywhere: its models seen from the front and the back.
-    Uniform([PreparedBsdf<'a>; 2]),
+    Uniform([PreparedBsdf<'a, C>; 2]),
     /// Depends on texture coordinates.
     Coordinates,
     /// Depends on more of the surface.
@@ -34,25 +35,35 @@ enum Readiness<'a> {
 }
 
 /// Where a model is put that had to be made for its place, and what it was made from.
-#[derive(Debug, Default)]
-pub struct Varying<'a> {
+#[derive(Debug)]
+pub struct Varying<'a, C: Channels = Primaries> {
     surface: Option<Located<'a>>,
-    bsdf: Option<PreparedBsdf<'a>>,
+    bsdf: Option<PreparedBsdf<'a, C>>,
 }
 
-impl<'a> PreparedMaterials<'a> {
+impl<C: Channels> Default for Varying<'_, C> {
+    #[inline(always)]
+    fn default() -> Self {
+        Self { surface: None, bsdf: None }
+    }
+}
+
+impl<'a, C: Channels> PreparedMaterials<'a, C> {
     /// Prepares what does not depend on the place; surfaces will be those of `geometry`.
     pub fn new(materials: &'a Materials, textures: &'a Textures, geometry: &'a Geometry) -> Self {
         let anywhere = [0.0; 2].into();
-        let prepare = |id| {
-            [Side::Front, Side::Back].map(|side| materials.prepare(id, textures, anywhere, side))
+        let prepare = |id, channels| {
+            [Side::Front, Side::Back]
+                .map(|side| materials.prepare(id, textures, anywhere, side, channels))
         };
         let readiness = (0..)
             .map(MaterialId)
             .zip(materials.iter())
             .map(|(id, material)| {
-                if is_uniform(material, materials, textures) {
-                    Readiness::Uniform(prepare(id))
+                if let Some(channels) = C::FIXED
+                    && is_uniform(material, materials, textures)
+                {
+                    Readiness::Uniform(prepare(id, channels))
                 } else if needs_surface(id, materials, textures) {
                     Readiness::Surface
                 } else {
@@ -65,6 +76,7 @@ impl<'a> PreparedMaterials<'a> {
 
     /// The reflection model of a material at a point, looked at from one side.
     ///
+    /// * `channels`: of the path.
     /// * `varying`: where the model is put if it had to be made for this place.
     #[inline(always)]
     pub fn at<'b>(
@@ -72,17 +84,19 @@ impl<'a> PreparedMaterials<'a> {
         id: MaterialId,
         point: &SurfacePoint,
         side: Side,
-        varying: &'b mut Varying<'b>,
-    ) -> &'b PreparedBsdf<'b> {
+        channels: C,
+        varying: &'b mut Varying<'b, C>,
+    ) -> &'b PreparedBsdf<'b, C> {
         match (self.readiness.get(id.0 as usize), side) {
             (Some(Readiness::Uniform([front, _])), Side::Front) => front,
             (Some(Readiness::Uniform([_, back])), Side::Back) => back,
             (Some(Readiness::Surface), _) => {
                 // A copy field by field: a reference would keep the point of every path in memory.
-                self.at_surface(id, SurfacePoint { ..*point }, side, varying)
+                self.at_surface(id, SurfacePoint { ..*point }, side, channels, varying)
             }
             _ => {
-                let bsdf = self.materials.prepare(id, self.textures, point.uv.into(), side);
+                let bsdf =
+                    self.materials.prepare(id, self.textures, point.uv.into(), side, channels);
                 &*varying.bsdf.insert(bsdf)
             }
         }
@@ -95,10 +109,17 @@ impl<'a> PreparedMaterials<'a> {
         id: MaterialId,
         point: SurfacePoint,
         side: Side,
-        varying: &'b mut Varying<'b>,
-    ) -> &'b PreparedBsdf<'b> {
+        channels: C,
+        varying: &'b mut Varying<'b, C>,
+    ) -> &'b PreparedBsdf<'b, C> {
         let surface = &*varying.surface.insert(Located::new(self.geometry, point));
-        varying.bsdf.insert(self.materials.prepare(id, self.textures, surface.into(), side))
+        varying.bsdf.insert(self.materials.prepare(
+            id,
+            self.textures,
+            surface.into(),
+            side,
+            channels,
+        ))
     }
 }
 
@@ -169,8 +190,8 @@ mod tests {
                 for uv in [[0.1, 0.1], [0.6, 0.1]] {
                     let mut varying = Varying::default();
                     let point = SurfacePoint { uv, ..point };
-                    let model = prepared.at(id, &point, side, &mut varying);
-                    let want = materials.prepare(id, &textures, uv.into(), side);
+                    let model = prepared.at(id, &point, side, Primaries, &mut varying);
+                    let want = materials.prepare(id, &textures, uv.into(), side, Primaries);
                     let (wo, wi) = (Vec3::Z * z, wi * z);
                     assert_eq!(model.eval(wo, wi), want.eval(wo, wi), "{id:?} {side:?} {uv:?}");
                     assert_eq!(model.lobes(), want.lobes());
@@ -194,7 +215,7 @@ mod tests {
         for reflectance in [white, board, mixed] {
             materials.add(Material::Diffuse { reflectance }).expect("it refers to none");
         }
-        let prepared = PreparedMaterials::new(&materials, &textures, &geometry);
+        let prepared = PreparedMaterials::<Primaries>::new(&materials, &textures, &geometry);
         assert!(matches!(
             prepared.readiness[..],
             [Readiness::Uniform(_), Readiness::Coordinates, Readiness::Surface]

@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 use etendue_brdf::{Ior, PrincipledParameters, PrincipledThinParameters};
 
 use super::prepare::At;
-use crate::Color;
+use crate::color::Channels;
 use crate::texture::TextureId;
 
 /// What the parameters of [`etendue_brdf::Principled`] are looked up in.
@@ -56,7 +56,7 @@ impl PrincipledTextures {
         always.into_iter().chain(self.spec_trans).collect()
     }
 
-    pub(super) fn at(&self, at: At<'_>) -> PrincipledParameters<Color> {
+    pub(super) fn at<C: Channels>(&self, at: At<'_, C>) -> PrincipledParameters<C::Color> {
         let [diffuse, specular, clearcoat] = self.sampling_rates;
         PrincipledParameters {
             base_color: at.color(self.base_color),
@@ -121,7 +121,7 @@ impl PrincipledThinTextures {
         always.into_iter().chain(self.spec_trans).collect()
     }
 
-    pub(super) fn at(&self, at: At<'_>) -> PrincipledThinParameters<Color> {
+    pub(super) fn at<C: Channels>(&self, at: At<'_, C>) -> PrincipledThinParameters<C::Color> {
         let [specular, specular_through, diffuse, diffuse_through] = self.sampling_rates;
         PrincipledThinParameters {
             base_color: at.color(self.base_color),

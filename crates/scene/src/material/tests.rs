@@ -1,5 +1,6 @@
 use super::*;
 use crate::Color;
+use crate::color::Primaries;
 use crate::texture::Textures;
 use etendue_brdf::{BeckmannLambda, Bsdf, Density};
 use etendue_math::glam::Vec3;
@@ -30,7 +31,7 @@ impl Studio {
 
     /// The model looked at from `wo`.
     fn at(&self, id: MaterialId, wo: Vec3) -> PreparedBsdf<'_> {
-        self.materials.prepare(id, &self.textures, [0.5; 2].into(), Side::of(wo))
+        self.materials.prepare(id, &self.textures, [0.5; 2].into(), Side::of(wo), Primaries)
     }
 }
 
@@ -60,6 +61,7 @@ fn every_kind(s: &mut Studio) -> Vec<MaterialId> {
     let rough_surface = PlasticSurface::rough(eta, beckmann, alpha, Masking::Separable, internal);
     let dielectric = |roughness| Material::Dielectric {
         eta,
+        dispersion: None,
         roughness,
         specular_reflectance: white,
         specular_transmittance: half,
@@ -234,6 +236,7 @@ fn equal_indices_are_invisible_even_when_rough() {
     };
     let air = s.add(Material::Dielectric {
         eta: Ior::new(1.0).expect("an index"),
+        dispersion: None,
         roughness: Some(roughness),
         specular_reflectance: white,
         specular_transmittance: white,
@@ -303,7 +306,7 @@ fn bumps_are_the_normal_of_their_slope() {
     let hit = geometry.intersect(&ray).expect("the square is below");
     let surface = Located::new(&geometry, geometry.surface_point(&ray, &hit));
     let eval = |id| {
-        let bsdf = s.materials.prepare(id, &s.textures, (&surface).into(), Side::Front);
+        let bsdf = s.materials.prepare(id, &s.textures, (&surface).into(), Side::Front, Primaries);
         bsdf.eval(UP, Vec3::new(-0.48, 0.6, 0.64)).r
     };
     // A few roundings of numbers of order 1.

@@ -25,7 +25,7 @@ pub(super) fn translate(context: &mut Context<'_>, id: NodeId) -> Result<PathSet
     context.translate(INTEGRATORS, node)
 }
 
-/// `max_depth` (−1, unlimited), `rr_depth` (5), `hide_emitters` (false), `strict_normals` (false).
+/// `max_depth` (−1, unlimited), `rr_depth` (5), `hide_emitters` (false), `strict_normals` (false), `spectral` (false).
 fn path<'a>(
     reader: &mut PluginReader<'a>,
     _: &mut Context<'a>,
@@ -43,6 +43,7 @@ fn path<'a>(
         hide_emitters: reader.boolean("hide_emitters", false)?,
         strict_normals: reader.boolean("strict_normals", false)?,
         volumes: false,
+        spectral: reader.boolean("spectral", false)?,
     })
 }
 

@@ -14,6 +14,7 @@ mod bare;
 mod bsdf;
 mod conductors;
 mod context;
+mod dispersion;
 mod emitter;
 mod field_of_view;
 mod film;

@@ -6,7 +6,7 @@ use etendue_math::Rgb;
 
 use super::reader::PluginReader;
 use super::{Context, texture};
-use crate::color::{SpectrumRole, equal_energy_white, spectrum_to_rgb};
+use crate::color::{Curve, SpectrumRole, equal_energy_white, spectrum_to_rgb};
 use crate::texture::{Texture, TextureId};
 use crate::xml::{SpectrumValue, Value};
 use crate::{Color, Location, SceneError};
@@ -57,7 +57,10 @@ pub(super) fn texture_if_given<'a>(
         return Err(SceneError::scene(property.location.clone(), message));
     };
     let color = checked(color, role, name, &property.location, context)?;
-    Ok(Some(context.textures.constant(color)))
+    Ok(Some(match curve(&property.value, role) {
+        Some(curve) => context.textures.constant_curve(color, curve),
+        None => context.textures.constant(color),
+    }))
 }
 
 /// The parameter `name` as a colour that is the same everywhere; grey `default` where it is missing.
@@ -102,6 +105,28 @@ fn color(value: &Value, role: Role) -> Option<Rgb<f64>> {
     })
 }
 
+/// What a colour is an integral over, where that is given and is not the same for all wavelengths; moved into its domain.
+fn curve(value: &Value, role: Role) -> Option<Curve> {
+    match value {
+        // White of equal energy is not that of daylight, which a colour of light is.
+        Value::Spectrum(SpectrumValue::Uniform(x)) if role == Role::Emission => {
+            Some(Curve::constant(x.max(0.0)))
+        }
+        Value::Spectrum(SpectrumValue::Samples(samples)) => {
+            Some(Curve::new(samples.clone()).map(|x| x.clamp(0.0, highest(role))))
+        }
+        _ => None,
+    }
+}
+
+/// The largest value of what plays a role.
+fn highest(role: Role) -> f64 {
+    match role {
+        Role::Reflectance => 1.0,
+        Role::Material | Role::Emission => f64::from(f32::MAX),
+    }
+}
+
 /// The colour moved into its domain, with a warning where that changes it.
 fn checked(
     color: Rgb<f64>,
@@ -110,12 +135,12 @@ fn checked(
     location: &Location,
     context: &mut Context<'_>,
 ) -> Result<Color, SceneError> {
-    let (highest, domain) = match role {
-        Role::Reflectance => (1.0, "[0, 1]"),
-        Role::Material | Role::Emission => (f64::from(f32::MAX), "[0, ∞)"),
+    let domain = match role {
+        Role::Reflectance => "[0, 1]",
+        Role::Material | Role::Emission => "[0, ∞)",
     };
     let channels = color.to_array();
-    let clamped = channels.map(|c| c.clamp(0.0, highest));
+    let clamped = channels.map(|c| c.clamp(0.0, highest(role)));
     if clamped != channels {
         if channels.iter().any(|&c| c > f64::from(f32::MAX)) {
             return Err(SceneError::scene(location.clone(), format!("“{name}” is too large")));

@@ -7,6 +7,7 @@ use etendue_math::glam::Vec3;
 
 use super::Scene;
 use crate::Color;
+use crate::color::Channels;
 use crate::geometry::{Shape, SurfacePoint};
 use crate::light::{AreaLight, Light, LightBounds, LightId, LightSample};
 
@@ -24,20 +25,25 @@ impl Scene {
     /// `None` where nothing arrives: the light shows its back, the drawn point is black, or there is
     /// no such light.
     #[inline(always)]
-    pub fn sample_light(
+    pub fn sample_light<C: Channels>(
         &self,
         light: LightId,
         primitive: u32,
         from: Vec3,
         u: [f32; 2],
-    ) -> Option<LightSample> {
+        channels: C,
+    ) -> Option<LightSample<C::Color>> {
         // `?` takes apart what the longer way returns, so that the result need not be in memory.
         Some(match self.lights.get(light.0 as usize)? {
             Light::Area(area) => {
                 let shape = self.shape_of(*area);
-                area.sample(shape, &self.textures, primitive, from, u)?
+                area.sample(shape, &self.textures, primitive, from, u, channels)?
             }
-            light => self.sample_without_surface(light, from, u)?,
+            light => {
+                let LightSample { direction, target, radiance, density } =
+                    self.sample_without_surface(light, from, u)?;
+                LightSample { direction, target, radiance: channels.light(radiance), density }
+            }
         })
     }
 
@@ -83,10 +89,17 @@ impl Scene {
     /// The light that a surface is, and the radiance that leaves it towards `direction`; `None` for
     /// a surface that does not emit, and from behind.
     #[inline(always)]
-    pub fn emitted(&self, hit: &SurfacePoint, direction: Vec3) -> Option<(LightId, Color)> {
+    pub fn emitted<C: Channels>(
+        &self,
+        hit: &SurfacePoint,
+        direction: Vec3,
+        channels: C,
+    ) -> Option<(LightId, C::Color)> {
         let id = self.surfaces[hit.shape.0 as usize].light?;
         match self.lights.get(id.0 as usize)? {
-            Light::Area(area) => Some((id, area.emitted(&self.textures, hit, direction)?)),
+            Light::Area(area) => {
+                Some((id, area.emitted(&self.textures, hit, direction, channels)?))
+            }
             _ => None,
         }
     }

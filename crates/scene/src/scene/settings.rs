@@ -42,6 +42,8 @@ pub struct PathSettings {
     /// Whether paths know media, and shadow rays and counts of edges do not notice where light passes
     /// a surface straight on: Mitsuba's `volpath` instead of its `path`.
     pub volumes: bool,
+    /// Whether paths carry wavelengths instead of RGB also where nothing in the scene disperses light.
+    pub spectral: bool,
 }
 
 impl Default for PathSettings {
@@ -53,6 +55,7 @@ impl Default for PathSettings {
             hide_emitters: false,
             strict_normals: false,
             volumes: false,
+            spectral: false,
         }
     }
 }

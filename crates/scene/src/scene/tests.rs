@@ -1,6 +1,7 @@
 use super::*;
 use crate::Color;
 use crate::camera::{FieldOfView, FovAxis, Projection};
+use crate::color::Primaries;
 use crate::geometry::{
     GeometryBuilder, Ray, Rectangle, Shape, ShapeId, Sphere, Transform, TriangleMesh,
 };
@@ -107,8 +108,13 @@ fn ceiling_solid_angle() -> f64 {
 fn sampled_solid_angle(scene: &Scene, primitives: u32) -> f64 {
     let point = floor(scene);
     let n = 64;
-    let inverse = |primitive, u| match scene.sample_light(LightId(0), primitive, point.position, u)
-    {
+    let inverse = |primitive, u| match scene.sample_light(
+        LightId(0),
+        primitive,
+        point.position,
+        u,
+        Primaries,
+    ) {
         Some(LightSample { density: Density::Continuous(pdf), .. }) => 1.0 / f64::from(pdf),
         _ => 0.0,
     };
@@ -145,14 +151,16 @@ fn a_sampled_point_is_seen_and_has_the_radiance_and_density_of_the_hit() {
         let scene = lit_by(shape, textured);
         let point = floor(&scene);
         for (primitive, u) in (0..primitives).flat_map(|i| uniforms(20).map(move |u| (i, u))) {
-            let sample =
-                scene.sample_light(LightId(0), primitive, point.position, u).expect("it is lit");
+            let sample = scene
+                .sample_light(LightId(0), primitive, point.position, u, Primaries)
+                .expect("it is lit");
             let target = sample.target.expect("an area light has a place");
             assert!(!scene.geometry.occluded(&point.spawn_to(target)), "{u:?}");
             let ray = point.spawn(sample.direction);
             let hit = scene.geometry.intersect(&ray).expect("the light is in the way");
             let hit = scene.geometry.surface_point(&ray, &hit);
-            let (light, radiance) = scene.emitted(&hit, -sample.direction).expect("its front");
+            let (light, radiance) =
+                scene.emitted(&hit, -sample.direction, Primaries).expect("its front");
             assert_eq!(light, LightId(0));
             // Directions of unit length, 1e-7 off, at distances of 2; the texture's slope is 4, and
             // a grazing hit of the sphere is 1/√(2·10⁻⁷) less precise.
@@ -167,13 +175,19 @@ fn a_sampled_point_is_seen_and_has_the_radiance_and_density_of_the_hit() {
 #[test]
 fn area_lights_emit_on_their_front_only() {
     let scene = lit_by(Shape::Rectangle(ceiling().flipped()), white);
-    assert_eq!(scene.sample_light(LightId(0), 0, floor(&scene).position, [0.5; 2]), None);
+    assert_eq!(
+        scene.sample_light(LightId(0), 0, floor(&scene).position, [0.5; 2], Primaries),
+        None
+    );
     let ray = floor(&scene).spawn(Vec3::Z);
     let hit = scene.geometry.intersect(&ray).expect("the light is above");
     let back = scene.geometry.surface_point(&ray, &hit);
-    assert_eq!(scene.emitted(&back, -Vec3::Z), None);
-    assert_eq!(scene.emitted(&back, Vec3::Z), Some((LightId(0), Color::new(1.0, 1.0, 1.0))));
-    assert_eq!(scene.emitted(&floor(&scene), Vec3::Z), None);
+    assert_eq!(scene.emitted(&back, -Vec3::Z, Primaries), None);
+    assert_eq!(
+        scene.emitted(&back, Vec3::Z, Primaries),
+        Some((LightId(0), Color::new(1.0, 1.0, 1.0)))
+    );
+    assert_eq!(scene.emitted(&floor(&scene), Vec3::Z, Primaries), None);
 }
 
 #[test]
@@ -218,7 +232,8 @@ fn lights_without_surface_have_the_textbook_irradiance() {
     let scene = Scene::new(parts).expect("a scene without shapes");
     let lit = lit_by(Shape::Rectangle(ceiling()), white);
     let origin = SurfacePoint { position: Vec3::ZERO, ..floor(&lit) };
-    let sample = |light| scene.sample_light(LightId(light), 0, origin.position, [0.3, 0.4]);
+    let sample =
+        |light| scene.sample_light(LightId(light), 0, origin.position, [0.3, 0.4], Primaries);
     for light in [0, 1] {
         let sample = sample(light).expect("it is lit");
         assert_eq!((sample.direction, sample.target), (Vec3::Z, Some(Vec3::Z * 2.0)));

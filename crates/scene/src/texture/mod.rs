@@ -11,6 +11,7 @@ mod image;
 mod point;
 mod uv_transform;
 
+use alloc::boxed::Box;
 use alloc::collections::BTreeSet;
 use alloc::vec::Vec;
 
@@ -25,6 +26,7 @@ pub use point::TexturePoint;
 pub use uv_transform::UvTransform;
 
 use crate::Color;
+use crate::color::{Channels, Curve};
 
 /// Names a texture of a [`Textures`] arena.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -64,6 +66,8 @@ struct Entry {
     texture: Texture,
     mean: Color,
     max: Color,
+    /// What its colour is an integral over, if it was given so.
+    curve: Option<Box<Curve>>,
 }
 
 impl Textures {
@@ -93,13 +97,13 @@ impl Textures {
                 (Texture::Attribute(attribute), bound, bound)
             }
         };
-        self.entries.push(Entry { texture, mean, max });
+        self.entries.push(Entry { texture, mean, max, curve: None });
         id
     }
 
     /// Puts its mean in the place of every texture that `varies`.
     pub(crate) fn average(&mut self, varies: impl Fn(&Texture) -> bool) {
-        for Entry { texture, mean, max } in &mut self.entries {
+        for Entry { texture, mean, max, .. } in &mut self.entries {
             if varies(texture) {
                 *texture = Texture::Constant(*mean);
                 *max = *mean;
@@ -110,6 +114,56 @@ impl Textures {
     /// Adds a texture that is `color` everywhere.
     pub fn constant(&mut self, color: Color) -> TextureId {
         self.add(Texture::Constant(color))
+    }
+
+    /// Adds a texture that is a curve over the wavelengths everywhere; `color` is what it is in RGB.
+    pub fn constant_curve(&mut self, color: Color, curve: Curve) -> TextureId {
+        let id = self.constant(color);
+        self.entries[id.0 as usize].curve = Some(Box::new(curve));
+        id
+    }
+
+    /// The curve that a texture was given as, if it was.
+    pub fn curve(&self, id: TextureId) -> Option<&Curve> {
+        self.entries.get(id.0 as usize).and_then(|entry| entry.curve.as_deref())
+    }
+
+    /// A share of light or property of matter at a point, in the channels of a path.
+    #[inline(always)]
+    pub fn matter<'a, C: Channels>(
+        &self,
+        id: TextureId,
+        at: impl Into<TexturePoint<'a>>,
+        channels: C,
+    ) -> C::Color {
+        self.carried(id, at, channels, C::matter)
+    }
+
+    /// Light of the colour at a point, in the channels of a path.
+    #[inline(always)]
+    pub fn light<'a, C: Channels>(
+        &self,
+        id: TextureId,
+        at: impl Into<TexturePoint<'a>>,
+        channels: C,
+    ) -> C::Color {
+        self.carried(id, at, channels, C::light)
+    }
+
+    #[inline(always)]
+    fn carried<'a, C: Channels>(
+        &self,
+        id: TextureId,
+        at: impl Into<TexturePoint<'a>>,
+        channels: C,
+        translate: impl FnOnce(C, Color) -> C::Color,
+    ) -> C::Color {
+        let rgb = self.color(id, at);
+        // Known where this is compiled: channels that are the same for all paths are no wavelengths.
+        match (C::FIXED, self.curve(id)) {
+            (None, Some(curve)) => channels.curve(curve, rgb),
+            _ => translate(channels, rgb),
+        }
     }
 
     /// The colour at a point, which may be texture coordinates alone: finite, not negative; black for an unknown `id`.

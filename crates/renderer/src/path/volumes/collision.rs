@@ -4,6 +4,7 @@ use etendue_brdf::Density;
 use etendue_math::Spectrum;
 use etendue_math::glam::Vec3;
 use etendue_sampling::{Decision, Dimension, Sampler};
+use etendue_scene::color::Channels;
 use etendue_scene::geometry::{Ray, Rays};
 
 use super::shadow::Shadowed;
@@ -17,19 +18,20 @@ impl Collision<'_> {
     }
 }
 
-impl<'s, R: Rays> PathTracer<'_, 's, R> {
+impl<'s, R: Rays, C: Channels> PathTracer<'_, 's, R, C> {
     /// By one light sample, the light scattered towards the camera if nothing is in its way.
     #[inline(always)]
     pub(super) fn light_in_medium<S: Sampler>(
         &self,
         collision: &Collision<'s>,
+        channels: C,
         points: &S,
-    ) -> Option<Shadowed<'s>> {
+    ) -> Option<Shadowed<'s, C>> {
         let Collision { medium, position, along, depth } = *collision;
         if self.light_sampling == LightSampling::Useless || !medium.samples_lights {
             return None;
         }
-        let sample = self.sample_light(depth, &collision.receiver(), points)?;
+        let sample = self.sample_light(depth, &collision.receiver(), channels, points)?;
         let phase = medium.phase.eval(position, along, sample.direction);
         let scale = match sample.density {
             Density::Delta(p) => 1.0 / p,
@@ -40,7 +42,8 @@ impl<'s, R: Rays> PathTracer<'_, 's, R> {
             Some(target) => Ray::between(position, target),
             None => Ray::new(position, sample.direction),
         };
-        let shadowed = Shadowed { light, ray, target: sample.target, medium: Some(medium) };
+        let shadowed =
+            Shadowed { light, ray, target: sample.target, medium: Some(medium), channels };
         (!light.is_black()).then_some(shadowed)
     }
 
@@ -50,7 +53,7 @@ impl<'s, R: Rays> PathTracer<'_, 's, R> {
         &self,
         collision: &Collision<'s>,
         edges: u16,
-        walk: &mut Walk,
+        walk: &mut Walk<C>,
         points: &S,
     ) -> Fate {
         let Collision { medium, position, along, depth } = *collision;

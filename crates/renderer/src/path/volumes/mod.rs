@@ -8,12 +8,13 @@ mod travel;
 
 use etendue_brdf::Bsdf;
 use etendue_math::Spectrum;
-use etendue_sampling::Sampler;
+use etendue_sampling::{Decision, Dimension, Sampler};
 use etendue_scene::Color;
+use etendue_scene::color::{Channels, Primaries, Wavelengths};
 use etendue_scene::geometry::{Ray, Rays};
-use etendue_scene::material::Varying;
+use etendue_scene::material::{PreparedMaterials, Varying};
 
-use super::transport::{Transport, Volumes};
+use super::transport::{Prepared, Spectral, Transport, Volumes};
 use super::{Fate, PathTracer, Walk};
 use crate::statistics::RayCounts;
 use course::Course;
@@ -22,6 +23,46 @@ use travel::Event;
 impl Transport for Volumes {
     const VOLUMES: bool = true;
 
+    type Channels = Primaries;
+
+    fn materials<'r, 'a>(prepared: &'r Prepared<'a>) -> &'r PreparedMaterials<'a> {
+        &prepared.rgb
+    }
+
+    #[inline(always)]
+    fn radiance<S: Sampler, R: Rays>(
+        tracer: &PathTracer<'_, '_, R>,
+        camera_ray: Ray,
+        points: &S,
+        rays: &mut RayCounts,
+    ) -> Color {
+        tracer.through_volumes::<Self, S>(camera_ray, points, rays)
+    }
+}
+
+impl Transport for Spectral {
+    const VOLUMES: bool = true;
+
+    type Channels = Wavelengths;
+
+    fn materials<'r, 'a>(prepared: &'r Prepared<'a>) -> &'r PreparedMaterials<'a, Wavelengths> {
+        &prepared.spectral
+    }
+
+    #[inline(always)]
+    fn radiance<S: Sampler, R: Rays>(
+        tracer: &PathTracer<'_, '_, R, Wavelengths>,
+        camera_ray: Ray,
+        points: &S,
+        rays: &mut RayCounts,
+    ) -> Color {
+        tracer.through_volumes::<Self, S>(camera_ray, points, rays)
+    }
+}
+
+impl<R: Rays, C: Channels> PathTracer<'_, '_, R, C> {
+    /// An estimate of the radiance that arrives along a ray of the camera.
+    ///
     /// ```text
     /// L(x, −ω) = ∫₀^d T(s) σs ∫ p(ω·ω') L(x + sω, −ω') dω' ds + T(d) L(surface at d)
     /// T(s) = exp(−∫₀^s σt)
@@ -36,16 +77,17 @@ impl Transport for Volumes {
     /// Chandrasekhar, "Radiative Transfer", 1950; Wilkie et al., "Hero Wavelength Spectral Sampling",
     /// CGF 33(4), 2014, for the mixture over channels.
     #[inline(always)]
-    fn radiance<S: Sampler, R: Rays>(
-        tracer: &PathTracer<'_, '_, R>,
+    fn through_volumes<T: Transport<Channels = C>, S: Sampler>(
+        &self,
         camera_ray: Ray,
         points: &S,
         rays: &mut RayCounts,
     ) -> Color {
-        let longest = tracer.longest();
-        let mut radiance = Color::black();
-        let mut walk = Walk::from_camera(camera_ray);
-        let mut course = Course::from_camera(tracer.scene);
+        let longest = self.longest();
+        let channels = C::of_path(|| points.sample_1d(Dimension::camera(Decision::Wavelength)));
+        let mut radiance = C::Color::black();
+        let mut walk = Walk::from_camera(camera_ray, channels);
+        let mut course = Course::in_medium(self.around_camera());
         let mut edges = 1;
         rays.camera += 1;
         // The address of a vertex, which is `edges` where nothing was passed.
@@ -54,10 +96,9 @@ impl Transport for Volumes {
                 break;
             }
             let throughput;
-            let (shadowed, fate) = match tracer.travel(&mut walk, &mut course, depth, points, rays)
-            {
+            let (shadowed, fate) = match self.travel(&mut walk, &mut course, depth, points, rays) {
                 Event::Escape => {
-                    radiance += walk.throughput * tracer.escaped(&walk);
+                    radiance += walk.throughput * self.escaped(&walk);
                     break;
                 }
                 Event::Collision(collision) => {
@@ -65,17 +106,17 @@ impl Transport for Volumes {
                         break;
                     }
                     throughput = walk.throughput;
-                    let shadowed = tracer.light_in_medium(&collision, points);
-                    (shadowed, tracer.scatter_in_medium(&collision, edges, &mut walk, points))
+                    let shadowed = self.light_in_medium(&collision, channels, points);
+                    (shadowed, self.scatter_in_medium(&collision, edges, &mut walk, points))
                 }
                 Event::Surface(point) => {
-                    radiance += walk.throughput * tracer.emitted(&walk, &point);
+                    radiance += walk.throughput * self.emitted(&walk, &point);
                     let mut varying = Varying::default();
-                    let vertex = tracer.vertex(depth, &point, walk.ray.direction, &mut varying);
+                    let vertex = self.vertex(depth, &point, &walk, &mut varying);
                     let is_last = edges == longest;
                     // Of the last surface matters only what passes it.
                     if is_last && !vertex.bsdf.lobes().delta
-                        || tracer.is_inconsistent(&vertex, -walk.ray.direction, vertex.wo)
+                        || self.is_inconsistent(&vertex, -walk.ray.direction, vertex.wo)
                     {
                         break;
                     }
@@ -83,16 +124,16 @@ impl Transport for Volumes {
                     let shadowed = if is_last {
                         None
                     } else {
-                        tracer.light_at_surface(&vertex, &course, points)
+                        self.light_at_surface(&vertex, &course, points)
                     };
-                    let fate = tracer.scatter::<Self, S>(&vertex, edges, &mut walk, points);
-                    course.cross(tracer.scene, &point, walk.ray.direction);
+                    let fate = self.scatter::<T, S>(&vertex, edges, &mut walk, points);
+                    course.medium = self.beyond(&point, walk.ray.direction, course.medium);
                     (shadowed, fate)
                 }
             };
             // In one place for all vertices, so that what traces rays is compiled once.
             if let Some(shadowed) = shadowed {
-                let share = tracer.transmittance(&shadowed, depth, points, rays);
+                let share = self.transmittance(&shadowed, depth, points, rays);
                 radiance += throughput * (shadowed.light * share);
             }
             match fate {
@@ -102,6 +143,6 @@ impl Transport for Volumes {
             }
             rays.indirect += 1;
         }
-        radiance
+        channels.seen(radiance)
     }
 }

@@ -3,7 +3,7 @@
 use etendue_math::glam::Vec3;
 use etendue_math::{Real, Spectrum};
 use etendue_sampling::{Decision, Dimension, Pcg32, Sampler};
-use etendue_scene::Color;
+use etendue_scene::color::Channels;
 use etendue_scene::geometry::{Ray, Rays, SurfacePoint};
 use etendue_scene::medium::{Density, Extinction, Medium};
 
@@ -32,7 +32,7 @@ pub(super) struct Collision<'s> {
     pub(super) depth: u16,
 }
 
-impl<'s, R: Rays> PathTracer<'_, 's, R> {
+impl<'s, R: Rays, C: Channels> PathTracer<'_, 's, R, C> {
     /// Goes to the next vertex, whose address is `depth`, and weighs how it got there.
     ///
     /// Rays are traced in one place: this is compiled into the loop over vertices, unlike what is done
@@ -40,7 +40,7 @@ impl<'s, R: Rays> PathTracer<'_, 's, R> {
     #[inline(always)]
     pub(super) fn travel<S: Sampler>(
         &self,
-        walk: &mut Walk,
+        walk: &mut Walk<C>,
         course: &mut Course<'s>,
         depth: u16,
         points: &S,
@@ -57,7 +57,9 @@ impl<'s, R: Rays> PathTracer<'_, 's, R> {
                         let decision = Dimension::vertex(depth, Decision::Distance);
                         optical_thickness(points.sample_1d(decision))
                     });
-                    Some(Flight::new(sigma, thickness, &walk.ray, || course.channel(points)))
+                    let sigma = walk.channels.matter(sigma);
+                    let leading = || course.leading::<C, S>(points);
+                    Some(Flight::new(sigma, thickness, &walk.ray, leading))
                 }
                 Some(Extinction::Heterogeneous(_)) | None => None,
             };
@@ -67,7 +69,7 @@ impl<'s, R: Rays> PathTracer<'_, 's, R> {
             let collision = match (flight, extinction) {
                 (Some(flight), _) => {
                     let collides = hit.is_none() && t < walk.ray.t_max;
-                    let factor = flight.factor(collides, end, course);
+                    let factor = flight.factor(collides, end, walk);
                     walk.throughput = walk.throughput * factor;
                     thickness = Some(flight.left(end));
                     collides.then(|| walk.ray.at(t))
@@ -77,14 +79,16 @@ impl<'s, R: Rays> PathTracer<'_, 's, R> {
                         points.rng(Dimension::vertex(depth, Decision::Tracking))
                     });
                     let part = Ray { t_max: end, ..walk.ray };
-                    let (position, factor) = track(density, &part, numbers, course, points);
+                    let leading = || course.leading::<C, S>(points);
+                    let (position, factor) = track(density, &part, numbers, walk, leading);
                     walk.throughput = walk.throughput * factor;
                     position
                 }
                 (None, _) => None,
             };
             if let (Some(position), Some(medium)) = (collision, course.medium) {
-                walk.throughput = walk.throughput * medium.albedo_at(position);
+                walk.throughput =
+                    walk.throughput * walk.channels.matter(medium.albedo_at(position));
                 let along = walk.ray.direction.normalize_or_zero();
                 return Event::Collision(Collision { medium, position, along, depth });
             }
@@ -94,7 +98,7 @@ impl<'s, R: Rays> PathTracer<'_, 's, R> {
                 return Event::Surface(point);
             }
             walk.look_through(&hit, &point, rays);
-            course.cross(self.scene, &point, walk.ray.direction);
+            course.medium = self.beyond(&point, walk.ray.direction, course.medium);
         }
     }
 }
@@ -105,8 +109,8 @@ impl<'s, R: Rays> PathTracer<'_, 's, R> {
 /// s = −ln(1 − u) / σ of that channel
 /// density of a collision σ exp(−σ s), of passing exp(−σ d)
 /// ```
-struct Flight {
-    sigma: Color,
+struct Flight<L> {
+    sigma: L,
     /// That of the channel.
     own: f32,
     thickness: f32,
@@ -116,10 +120,10 @@ struct Flight {
     t: f32,
 }
 
-impl Flight {
+impl<L: Spectrum<Real = f32>> Flight<L> {
     #[inline(always)]
-    fn new(sigma: Color, thickness: f32, ray: &Ray, channel: impl FnOnce() -> usize) -> Self {
-        let own = if is_grey(sigma) { sigma.r } else { sigma.channel(channel()) };
+    fn new(sigma: L, thickness: f32, ray: &Ray, leading: impl FnOnce() -> usize) -> Self {
+        let own = sigma.channel(if is_grey(sigma) { 0 } else { leading() });
         let speed = ray.direction.length();
         // Infinite in a channel without extinction, also for a thickness of 0.
         let t = if own > 0.0 { thickness / (own * speed) } else { f32::INFINITY };
@@ -131,9 +135,9 @@ impl Flight {
     /// The extinction of the channel is taken off all exponents, so that none overflows and not all
     /// vanish.
     #[inline]
-    fn factor(&self, collides: bool, end: f32, course: &mut Course<'_>) -> Color {
+    fn factor<C: Channels<Color = L>>(&self, collides: bool, end: f32, walk: &mut Walk<C>) -> L {
         if is_grey(self.sigma) {
-            return Color::white();
+            return L::white();
         }
         let distance = self.speed * if collides { self.t } else { end };
         let own = self.own;
@@ -141,7 +145,8 @@ impl Flight {
             // Equal ones differ by 0, also over an infinite distance.
             if sigma == own { 1.0 } else { Real::exp((own - sigma) * distance) }
         });
-        course.reweigh(if collides { self.sigma * passing } else { passing })
+        let densities = if collides { self.sigma * passing } else { passing };
+        densities.scale(walk.weigh(densities))
     }
 
     /// The optical thickness that is left at `end`.
@@ -163,22 +168,22 @@ impl Flight {
 /// Woodcock et al., "Techniques Used in the GEM Code for Monte Carlo Neutronics Calculations in
 /// Reactors and Other Systems of Complex Geometry", ANL-7050, 1965.
 #[inline]
-fn track<S: Sampler>(
+fn track<C: Channels>(
     density: &Density,
     ray: &Ray,
     numbers: &mut Pcg32,
-    course: &mut Course<'_>,
-    points: &S,
-) -> (Option<Vec3>, Color) {
-    let channel = if density.is_coloured() { course.channel(points) } else { 0 };
-    let mut factor = Color::white();
+    walk: &mut Walk<C>,
+    leading: impl FnOnce() -> usize,
+) -> (Option<Vec3>, C::Color) {
+    let leading = if density.is_coloured() { leading() } else { 0 };
+    let mut factor = C::Color::white();
     let mut tentative = tentative(numbers, ray, density);
     while let Some((position, majorant)) = tentative.next() {
-        let sigma = density.at(position);
-        let is_real = tentative.uniform() * majorant < sigma.channel(channel);
+        let sigma = walk.channels.matter(density.at(position));
+        let is_real = tentative.uniform() * majorant < sigma.channel(leading);
         if !is_grey(sigma) {
-            let densities = if is_real { sigma } else { Color::splat(majorant) - sigma };
-            factor = factor * course.reweigh(densities);
+            let densities = if is_real { sigma } else { C::Color::splat(majorant) - sigma };
+            factor = factor * densities.scale(walk.weigh(densities));
         }
         if is_real {
             return (Some(position), factor);
@@ -189,6 +194,6 @@ fn track<S: Sampler>(
 
 /// Whether a medium takes the same of every channel.
 #[inline]
-pub(super) fn is_grey(sigma: Color) -> bool {
-    sigma.r == sigma.g && sigma.g == sigma.b
+fn is_grey<L: Spectrum<Real = f32>>(sigma: L) -> bool {
+    (1..L::CHANNELS).all(|i| sigma.channel(i) == sigma.channel(0))
 }

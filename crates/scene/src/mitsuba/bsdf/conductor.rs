@@ -4,9 +4,10 @@ use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
 
+use super::super::conductors::{self, Conductor};
 use super::super::reader::PluginReader;
 use super::super::value::{Role, texture_or};
-use super::super::{Context, conductors, ior};
+use super::super::{Context, ior};
 use super::roughness::roughness;
 use crate::SceneError;
 use crate::material::{ConductorIndex, Material, MaterialId, Roughness};
@@ -56,10 +57,11 @@ fn index<'a>(
         }
         Some("none") => return Ok(ConductorIndex::Mirror),
         Some(name) => {
-            let Some((eta, k)) = conductors::by_name(name) else {
+            let Some(conductor) = Conductor::by_name(name) else {
                 return Err(unknown_conductor(reader, name));
             };
-            (context.textures.constant(eta.into()), context.textures.constant(k.into()))
+            let [eta, k] = conductor.textures(&mut context.textures);
+            (eta, k)
         }
         None if !reader.has("eta") && !reader.has("k") => return Ok(ConductorIndex::Mirror),
         None => (
@@ -67,13 +69,21 @@ fn index<'a>(
             texture_or(reader, context, "k", Role::Material, 1.0)?,
         ),
     };
-    let relative = |context: &mut Context<'a>, texture: TextureId| match context
-        .textures
-        .get(texture)
-    {
-        _ if exterior == 1.0 => Ok(texture),
-        Some(&Texture::Constant(value)) => Ok(context.textures.constant(value * exterior.recip())),
-        _ => Err(reader.error("ext_eta", "“ext_eta” needs an index that does not vary")),
+    let relative = |context: &mut Context<'a>, texture: TextureId| {
+        let textures = &mut context.textures;
+        match textures.get(texture) {
+            _ if exterior == 1.0 => Ok(texture),
+            Some(&Texture::Constant(value)) => {
+                let value = value * exterior.recip();
+                Ok(match textures.curve(texture).cloned() {
+                    Some(curve) => {
+                        textures.constant_curve(value, curve.map(|x| x / f64::from(exterior)))
+                    }
+                    None => textures.constant(value),
+                })
+            }
+            _ => Err(reader.error("ext_eta", "“ext_eta” needs an index that does not vary")),
+        }
     };
     Ok(ConductorIndex::Complex { eta: relative(context, eta)?, k: relative(context, k)? })
 }

@@ -2,14 +2,14 @@
 
 use super::super::reader::PluginReader;
 use super::super::value::{Role, texture_or};
-use super::super::{Context, ior};
+use super::super::{Context, dispersion, ior};
 use super::roughness::roughness;
 use crate::SceneError;
 use crate::material::{Material, MaterialId, Roughness};
 use crate::texture::TextureId;
 
 /// A smooth interface: `int_ior` (bk7), `ext_ior` (air), `specular_reflectance` (1),
-/// `specular_transmittance` (1).
+/// `specular_transmittance` (1), and what makes [`dispersion`].
 pub(super) fn smooth<'a>(
     reader: &mut PluginReader<'a>,
     context: &mut Context<'a>,
@@ -31,10 +31,15 @@ fn interface<'a>(
     context: &mut Context<'a>,
     roughness: Option<Roughness>,
 ) -> Result<MaterialId, SceneError> {
-    let eta = ior::relative(reader, "bk7", "air")?;
+    let (eta, dispersion) = dispersion::interface(reader)?;
     let [specular_reflectance, specular_transmittance] = factors(reader, context)?;
-    let material =
-        Material::Dielectric { eta, roughness, specular_reflectance, specular_transmittance };
+    let material = Material::Dielectric {
+        eta,
+        dispersion,
+        roughness,
+        specular_reflectance,
+        specular_transmittance,
+    };
     context.add_material(material, &reader.node().location)
 }
 

@@ -11,7 +11,7 @@ fn every_bsdf_is_translated() {
     is("<bsdf type=\"diffuse\"/>", |m| matches!(m, Material::Diffuse { .. }));
     is("<bsdf type=\"roughdiffuse\"/>", |m| matches!(m, Material::RoughDiffuse { .. }));
     is("<bsdf type=\"dielectric\"/>", |m| {
-        matches!(m, Material::Dielectric { eta, roughness: None, .. }
+        matches!(m, Material::Dielectric { eta, dispersion: None, roughness: None, .. }
             if (eta.value() - 1.5046 / 1.000277).abs() < 1e-6)
     });
     is("<bsdf type=\"thindielectric\"/>", |m| matches!(m, Material::ThinDielectric { .. }));
@@ -57,11 +57,74 @@ fn named_conductors_have_mitsubas_indices() {
         panic!("{material:?}")
     };
     let textures = &loaded.scene.textures;
-    // mi.traverse(mi.load_dict({'type': 'conductor', 'material': 'Au'})), to six digits.
-    assert_eq!(textures.mean(eta).to_array(), [0.143036, 0.375307, 1.44205]);
+    // mi.traverse(mi.load_dict({'type': 'conductor', 'material': 'Au'})); our wavelengths are rounded to a hundredth of a
+    // nanometre.
+    for (ours, theirs) in
+        textures.mean(eta).to_array().into_iter().zip([0.143036, 0.375307, 1.44205])
+    {
+        assert!((ours / theirs - 1.0).abs() < 3e-5, "{ours} {theirs}");
+    }
+    let curve = textures.curve(eta).expect("a curve");
+    assert!(curve.at(450.0) > 1.3 && curve.at(650.0) < 0.2);
     let roughness = roughness.expect("a rough conductor");
     assert_eq!(textures.value(roughness.alpha_u, [0.0; 2]), 0.1);
     assert_eq!(textures.value(roughness.alpha_v, [0.0; 2]), 0.3);
+}
+
+/// The indices of an interface at 486 and 656 nm, relative to air, and that of its material.
+fn indices(parameters: &str) -> [f32; 3] {
+    let bsdf = format!("<bsdf type=\"dielectric\">{parameters}</bsdf>");
+    match material(&bsdf).0 {
+        Material::Dielectric { eta, dispersion: Some(dispersion), .. } => {
+            [dispersion.index(486.1327), dispersion.index(656.2725), eta.value()]
+        }
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn dispersion_is_stated_in_four_ways() {
+    const AIR: f32 = 1.000_277;
+    let close = |found: [f32; 3], wanted: [f32; 3]| {
+        for (found, wanted) in found.into_iter().zip(wanted) {
+            // Six digits of data sheets.
+            assert!((found * AIR - wanted).abs() < 2e-6, "{found} {wanted}");
+        }
+    };
+    // The formula in double precision.
+    let flint = [1.806_513, 1.775_955, 1.784_720];
+    for glass in [
+        "glass\" value=\"N-SF11\"",
+        "sellmeier\" value=\"1.73759695, 0.013188707, 0.313747346, 0.0623068142, 1.89878101, 155.23629\"",
+    ] {
+        let found = indices(&format!("<string name=\"{glass}/>"));
+        for (found, wanted) in found.into_iter().zip(flint) {
+            // Six digits after the point, and a rounding.
+            assert!((found * AIR - wanted).abs() < 2e-6, "{found} {wanted}");
+        }
+    }
+    let cauchy = indices(
+        "<string name=\"cauchy\" value=\"1.5 0.004\"/><float name=\"ext_ior\" value=\"1.000277\"/>",
+    );
+    close(cauchy, [1.516_926, 1.509_287, 1.511_587]);
+    let abbe =
+        indices("<float name=\"int_ior\" value=\"1.5\"/><float name=\"abbe\" value=\"50\"/>");
+    assert!((abbe[2] * AIR - 1.5).abs() < 1e-6);
+    assert!(((abbe[0] - abbe[1]) * AIR - 0.01).abs() < 1e-6);
+}
+
+#[test]
+fn spectra_are_kept_beside_their_colours() {
+    let (material, loaded) = material(
+        "<bsdf type=\"conductor\"><spectrum name=\"eta\" value=\"400:1, 700:3\"/>\
+         <float name=\"ext_eta\" value=\"2\"/></bsdf>",
+    );
+    let Material::Conductor { index: ConductorIndex::Complex { eta, k }, .. } = material else {
+        panic!("{material:?}")
+    };
+    let textures = &loaded.scene.textures;
+    assert_eq!(textures.curve(eta).map(|curve| curve.at(550.0)), Some(1.0));
+    assert!(textures.curve(k).is_none());
 }
 
 #[test]
