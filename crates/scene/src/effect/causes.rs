@@ -26,6 +26,7 @@ pub(super) fn of_texture(texture: &Texture) -> Option<Effect> {
         Texture::Bitmap(_) => Some(Effect::BitmapTexture),
         Texture::Checkerboard(_) => Some(Effect::CheckerboardTexture),
         Texture::Attribute(_) => Some(Effect::MeshAttribute),
+        Texture::Volume(_) => Some(Effect::VolumeTexture),
     }
 }
 

@@ -57,6 +57,8 @@ pub enum Effect {
     CheckerboardTexture,
     /// Colours that meshes bring along.
     MeshAttribute,
+    /// Colours that fill space, on surfaces.
+    VolumeTexture,
     /// Matter of the same density everywhere, that scatters and absorbs.
     HomogeneousMedium,
     /// Matter whose density differs from place to place.
@@ -79,7 +81,7 @@ pub enum Effect {
 
 impl Effect {
     /// The whole vocabulary.
-    pub const ALL: [Self; 31] = [
+    pub const ALL: [Self; 32] = [
         Self::IndirectLight,
         Self::AreaLight,
         Self::PointLight,
@@ -102,6 +104,7 @@ impl Effect {
         Self::BitmapTexture,
         Self::CheckerboardTexture,
         Self::MeshAttribute,
+        Self::VolumeTexture,
         Self::HomogeneousMedium,
         Self::HeterogeneousMedium,
         Self::ColouredExtinction,
@@ -138,6 +141,7 @@ impl Effect {
             Self::BitmapTexture => "bitmap-texture",
             Self::CheckerboardTexture => "checkerboard-texture",
             Self::MeshAttribute => "mesh-attribute",
+            Self::VolumeTexture => "volume-texture",
             Self::HomogeneousMedium => "homogeneous-medium",
             Self::HeterogeneousMedium => "heterogeneous-medium",
             Self::ColouredExtinction => "coloured-extinction",
@@ -199,6 +203,9 @@ impl Effect {
             Self::CheckerboardTexture => "a square found and a model of its own per surface met",
             Self::MeshAttribute => {
                 "a copy of the point, a name found, a value of each corner and a model of its own per surface met"
+            }
+            Self::VolumeTexture => {
+                "a copy of the point, a place in the grid, eight cells and a model of its own per surface met"
             }
             Self::HomogeneousMedium => {
                 "a random number per ray in it and a vertex per collision, shadow rays that stop at every surface"

@@ -110,6 +110,22 @@ impl Volume {
         }
     }
 
+    /// The mean over the cells.
+    pub(crate) fn mean(&self) -> Color {
+        match &self.values {
+            Values::Constant(color) => *color,
+            Values::Grid(placed) => placed.grid.mean(),
+        }
+    }
+
+    /// The largest value of each channel.
+    pub(crate) fn max(&self) -> Color {
+        match &self.values {
+            Values::Constant(color) => *color,
+            Values::Grid(placed) => placed.grid.max(),
+        }
+    }
+
     /// A bound of all channels within a box of the world.
     pub(super) fn largest_within(&self, region: &Aabb) -> f32 {
         match &self.values {

@@ -294,7 +294,7 @@ fn parts_that_do_not_fit_are_refused() {
         let spot = SpotLight::new(Transform::IDENTITY, white, texture, 20.0, 10.0);
         p.lights.push(Light::Spot(spot.expect("a spot light")));
     };
-    assert_eq!(refused(&attribute), Some(InvalidScene::Attribute(0)));
+    assert_eq!(refused(&attribute), Some(InvalidScene::NeedsSurface(0)));
     assert_eq!(refused(&|p| p.film.crop.size = [5, 1]), Some(InvalidScene::Crop));
 }
 
