@@ -219,6 +219,44 @@ fn albedos_outside_the_unit_interval_are_clamped_with_a_warning() {
 }
 
 #[test]
+fn compensation_without_tables_is_refused() {
+    let rough = |plugin, parameters: &str| {
+        format!(
+            "<bsdf type=\"{plugin}\">\n<string name=\"multiple_scattering\" value=\"{parameters}</bsdf>"
+        )
+    };
+    let says: &[&str] = &["scene.xml:6:1", "“multiple_scattering”"];
+    check([
+        material("unknown", 3, says, &rough("roughconductor", "heitz\"/>")),
+        material("Walter's fit", 3, says, &rough("roughconductor", "turquin\"/>")),
+        material(
+            "anisotropic",
+            3,
+            says,
+            &rough(
+                "roughconductor",
+                "kulla-conty\"/><string name=\"distribution\" value=\"ggx\"/><float name=\"alpha_u\" value=\"0.1\"/><float name=\"alpha_v\" value=\"0.2\"/>",
+            ),
+        ),
+        material(
+            "Turquin's glass",
+            3,
+            &["scene.xml:6:1", "“multiple_scattering”", "kulla-conty"],
+            &rough("roughdielectric", "turquin\"/><string name=\"distribution\" value=\"ggx\"/>"),
+        ),
+        material(
+            "with dispersion",
+            3,
+            &["scene.xml:6:1", "dispersion"],
+            &rough(
+                "roughdielectric",
+                "kulla-conty\"/><string name=\"distribution\" value=\"ggx\"/><string name=\"glass\" value=\"F2\"/>",
+            ),
+        ),
+    ]);
+}
+
+#[test]
 fn dispersion_that_is_no_index_is_refused() {
     let glass = |parameters: &str| format!("<bsdf type=\"dielectric\">{parameters}</bsdf>");
     let string = |name, value| glass(&format!("<string name=\"{name}\" value=\"{value}\"/>"));

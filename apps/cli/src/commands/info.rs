@@ -77,6 +77,7 @@ fn material_name(material: &Material) -> &'static str {
         Material::Dielectric { roughness: None, .. } => "dielectric",
         Material::Dielectric { .. } => "rough dielectric",
         Material::ThinDielectric { .. } => "thin dielectric",
+        Material::Compensated { .. } => "with multiple scattering",
         Material::Conductor { roughness: None, .. } => "conductor",
         Material::Conductor { .. } => "rough conductor",
         Material::Plastic { .. } => "plastic",

@@ -24,11 +24,13 @@ pub enum Form {
     PlasticNonLinear,
     /// Plastic whose colour does not.
     PlasticLinear,
+    /// Glass with one index of refraction for all wavelengths.
+    OneIndex,
 }
 
 impl Form {
     /// All of them.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
         Self::OrenNayarFull,
         Self::OrenNayarQualitative,
         Self::OrenNayarLambert,
@@ -38,6 +40,7 @@ impl Form {
         Self::BeckmannWalter,
         Self::PlasticNonLinear,
         Self::PlasticLinear,
+        Self::OneIndex,
     ];
 
     /// For people.
@@ -52,6 +55,7 @@ impl Form {
             Self::BeckmannWalter => "Beckmann's Λ, Walter's fit",
             Self::PlasticNonLinear => "plastic, non-linear",
             Self::PlasticLinear => "plastic, linear",
+            Self::OneIndex => "one index for all wavelengths",
         }
     }
 
@@ -88,6 +92,9 @@ impl Form {
                 Self::OrenNayarQualitative => replace(form, OrenNayarForm::Qualitative),
                 _ => false,
             },
+            Material::Dielectric { dispersion, .. } if self == Self::OneIndex => {
+                replace(dispersion, None)
+            }
             Material::Dielectric { roughness: Some(roughness), .. }
             | Material::Conductor { roughness: Some(roughness), .. } => self.of_facets(roughness),
             Material::Plastic { scattering, .. } => match self {

@@ -21,6 +21,8 @@ pub struct Variant {
     pub max_depth: Option<u32>,
     /// Another form of its models.
     pub form: Option<Form>,
+    /// Red, green and blue where the scene asks for wavelengths.
+    pub primaries: bool,
 }
 
 /// What sets a variant apart.
@@ -55,10 +57,16 @@ impl Variant {
                     sampler,
                     max_depth: None,
                     form: None,
+                    primaries: false,
                 });
             }
         }
         let base = Self { kind: Kind::Approximation, ..variants[0].clone() };
+        variants.extend(scene.path.spectral.then(|| Self {
+            name: "primaries for wavelengths".to_owned(),
+            primaries: true,
+            ..base.clone()
+        }));
         let shorter = |depth: &u32| scene.path.max_depth.is_none_or(|limit| *depth < limit);
         variants.extend(DEPTHS.iter().copied().filter(shorter).map(|depth| Self {
             name: format!("at most {depth} edges"),
@@ -82,7 +90,11 @@ impl Variant {
             samples_per_pixel: picture.samples_per_pixel,
             seed: picture.seed,
             sampler: self.sampler,
-            path: PathSettings { max_depth: self.max_depth.or(scene.path.max_depth), ..scene.path },
+            path: PathSettings {
+                max_depth: self.max_depth.or(scene.path.max_depth),
+                spectral: scene.path.spectral && !self.primaries,
+                ..scene.path
+            },
             strategy: self.strategy,
         }
     }

@@ -89,8 +89,25 @@ impl<C: Spectrum> KullaContyConductor<C> {
     /// # Errors
     /// [`ParameterError`] where [`FacetLoss`] has no table.
     pub fn new(ior: ComplexIor<C>, facets: Microfacets<C::Real>) -> Result<Self, ParameterError> {
+        Self::with_average(ior, facets, Self::average_reflectance(ior))
+    }
+
+    /// The hemispherical average of Fresnel's term, [`conductor_average`]: what [`new`](Self::new) spends most of its time on, and the
+    /// same for all facets.
+    pub fn average_reflectance(ior: ComplexIor<C>) -> C {
+        ior.eta().zip(ior.k(), conductor_average)
+    }
+
+    /// The same model with [`average_reflectance`](Self::average_reflectance) known beforehand.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn with_average(
+        ior: ComplexIor<C>,
+        facets: Microfacets<C::Real>,
+        average: C,
+    ) -> Result<Self, ParameterError> {
         let loss = FacetLoss::new(&facets)?;
-        let average = ior.eta().zip(ior.k(), conductor_average);
         let Multiple { reflectance, scale } = Multiple::new(average, &loss);
         Ok(Self {
             single: RoughConductor::new(ior, facets),

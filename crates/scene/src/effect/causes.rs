@@ -56,6 +56,7 @@ pub(super) fn of_lobes(material: &mut Material) -> impl Iterator<Item = (Effect,
         Material::PrincipledThin(textures) => (ROUGH, None, textures.spec_trans.as_mut()),
         Material::Diffuse { .. }
         | Material::RoughDiffuse { .. }
+        | Material::Compensated { .. }
         | Material::TwoSided { .. }
         | Material::Mask { .. }
         | Material::Blend { .. }
@@ -71,6 +72,7 @@ pub(super) fn of_lobes(material: &mut Material) -> impl Iterator<Item = (Effect,
 pub(super) fn of_surface(material: &Material) -> Option<Effect> {
     match material {
         Material::Principled(_) | Material::PrincipledThin(_) => Some(Effect::Principled),
+        Material::Compensated { .. } => Some(Effect::MultipleScattering),
         Material::Mask { .. } => Some(Effect::OpacityMask),
         Material::Blend { .. } => Some(Effect::Blend),
         Material::NormalMap { .. } => Some(Effect::NormalMap),

@@ -39,6 +39,8 @@ pub enum Effect {
     RoughTransmission,
     /// Glass that parts white light into its colours.
     Dispersion,
+    /// Light that facets scatter more than once.
+    MultipleScattering,
     /// Disney's material of many lobes.
     Principled,
     /// Surfaces that are partly not there.
@@ -81,7 +83,7 @@ pub enum Effect {
 
 impl Effect {
     /// The whole vocabulary.
-    pub const ALL: [Self; 32] = [
+    pub const ALL: [Self; 33] = [
         Self::IndirectLight,
         Self::AreaLight,
         Self::PointLight,
@@ -95,6 +97,7 @@ impl Effect {
         Self::RoughReflection,
         Self::RoughTransmission,
         Self::Dispersion,
+        Self::MultipleScattering,
         Self::Principled,
         Self::OpacityMask,
         Self::Blend,
@@ -132,6 +135,7 @@ impl Effect {
             Self::RoughReflection => "rough-reflection",
             Self::RoughTransmission => "rough-transmission",
             Self::Dispersion => "dispersion",
+            Self::MultipleScattering => "multiple-scattering",
             Self::Principled => "principled",
             Self::OpacityMask => "opacity-mask",
             Self::Blend => "blend",
@@ -186,6 +190,9 @@ impl Effect {
             }
             Self::Dispersion => {
                 "four wavelengths instead of three primaries all over the scene, models made at every surface met"
+            }
+            Self::MultipleScattering => {
+                "a row of a table interpolated and a model made each time it is evaluated or sampled, a second lobe"
             }
             Self::Principled => {
                 "a model made twice, a random number and up to four lobes evaluated per surface met"

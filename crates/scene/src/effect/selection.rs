@@ -19,6 +19,7 @@ impl Scene {
     /// * light: lights are not there, shapes that emit are dark, paths end at the second edge without indirect light;
     /// * reflection and transmission: the lobe is black, and a surface that has no other one is black altogether;
     /// * glass has the index of the yellow line of helium for every wavelength, and paths carry RGB;
+    /// * facets lose what they scatter more than once;
     /// * principled materials are diffuse; surfaces with opacity masks are whole, those that let light pass are black;
     ///   of two that are blended the heavier one is there; normals are those of the shape;
     /// * textures: their mean is everywhere, or 1 times the scale of a mesh attribute;
@@ -81,7 +82,8 @@ fn changed(
     let part = |MaterialId(id)| earlier[id as usize].clone();
     if of_surface(material).is_some_and(out) {
         return Some(match *material {
-            Material::Mask { nested, .. }
+            Material::Compensated { nested, .. }
+            | Material::Mask { nested, .. }
             | Material::NormalMap { nested, .. }
             | Material::BumpMap { nested, .. } => part(nested),
             Material::Blend { weight, parts } => {
@@ -97,9 +99,11 @@ fn changed(
         });
     }
     let mut changed = material.clone();
-    let is_grey = material.disperses() && out(Effect::Dispersion);
-    if let (true, Material::Dielectric { dispersion, .. }) = (is_grey, &mut changed) {
-        *dispersion = None;
+    let mut is_simpler = false;
+    if let Material::Dielectric { dispersion, .. } = &mut changed
+        && out(Effect::Dispersion)
+    {
+        is_simpler |= dispersion.take().is_some();
     }
     let (mut lobes, mut left_out) = (0, 0);
     for (effect, factor) in of_lobes(&mut changed) {
@@ -114,7 +118,7 @@ fn changed(
         Material::Plastic { .. } | Material::Principled(_) | Material::PrincipledThin(_)
     );
     match left_out {
-        0 => is_grey.then_some(changed),
+        0 => is_simpler.then_some(changed),
         n if n == lobes && !has_base => Some(absorber),
         _ => Some(changed),
     }

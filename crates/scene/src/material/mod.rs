@@ -3,6 +3,7 @@
 //! A [`Material`] names textures; [`Materials::prepare`] looks them up at one point and gives the
 //! reflection model there, a [`PreparedBsdf`].
 
+mod compensated;
 mod composed;
 mod dispersive;
 mod model;
@@ -22,6 +23,7 @@ use etendue_brdf::{
     TransmittanceTable,
 };
 
+pub use compensated::{Compensated, Compensation, Metal};
 pub use composed::Composed;
 pub use dispersive::{Dispersed, Dispersive, RelativeDispersion};
 pub use model::{Model, PrincipledModel, PrincipledThinModel};
@@ -101,6 +103,13 @@ pub enum Material {
     Principled(Box<PrincipledTextures>),
     /// The same as a sheet without thickness.
     PrincipledThin(Box<PrincipledThinTextures>),
+    /// A rough metal or rough glass with the light that its facets scatter more than once.
+    Compensated {
+        /// The same without.
+        nested: MaterialId,
+        /// Where that light goes.
+        how: Compensation,
+    },
     /// A surface that is partly not there.
     Mask {
         /// The share of light that meets the surface.
@@ -240,7 +249,7 @@ impl Materials {
     /// [`Material::NormalMap`].
     pub fn add(&mut self, material: Material) -> Result<MaterialId, MaterialError> {
         match material {
-            Material::Mask { nested, .. } => {
+            Material::Mask { nested, .. } | Material::Compensated { nested, .. } => {
                 self.get(nested).ok_or(MaterialError::Unknown(nested.0))?;
             }
             Material::NormalMap { nested, .. } | Material::BumpMap { nested, .. } => {
@@ -278,7 +287,10 @@ impl Materials {
             | Material::Plastic { .. } => true,
             Material::Principled(textures) => textures.spec_trans.is_none(),
             // What they are made of was there before them: this ends.
-            Material::Blend { .. } | Material::NormalMap { .. } | Material::BumpMap { .. } => {
+            Material::Compensated { .. }
+            | Material::Blend { .. }
+            | Material::NormalMap { .. }
+            | Material::BumpMap { .. } => {
                 let part = |id| self.get(id).is_some_and(|part| self.is_one_sided(part));
                 material.nested().all(part)
             }
@@ -375,7 +387,7 @@ impl Material {
             Self::Blend { weight, .. } => Vec::from([weight]),
             Self::NormalMap { normal, .. } => Vec::from([normal]),
             Self::BumpMap { height, .. } => Vec::from([height]),
-            Self::TwoSided { .. } | Self::Null => Vec::new(),
+            Self::Compensated { .. } | Self::TwoSided { .. } | Self::Null => Vec::new(),
         };
         textures.into_iter()
     }
@@ -388,7 +400,8 @@ impl Material {
     /// The materials that it is made of.
     pub fn nested(&self) -> impl Iterator<Item = MaterialId> + use<> {
         let parts = match *self {
-            Self::Mask { nested, .. }
+            Self::Compensated { nested, .. }
+            | Self::Mask { nested, .. }
             | Self::NormalMap { nested, .. }
             | Self::BumpMap { nested, .. } => [Some(nested), None],
             Self::Blend { parts: [first, second], .. } => [Some(first), Some(second)],

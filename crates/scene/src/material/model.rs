@@ -8,7 +8,7 @@ use etendue_brdf::{
 use etendue_math::Spectrum;
 use etendue_math::glam::Vec3;
 
-use super::{Composed, Dispersive};
+use super::{Compensated, Composed, Dispersive};
 use crate::color::{Channels, Primaries};
 
 /// A reflection model with its parameters at one point.
@@ -28,6 +28,8 @@ pub enum Model<'a, C: Channels = Primaries> {
     RoughDielectric(RoughDielectric<C::Color>),
     /// A smooth or rough interface whose index depends on the wavelength.
     Dispersive(Dispersive<C::Color>),
+    /// A rough metal or rough glass with a compensation.
+    Compensated(Compensated<'a, C::Color>),
     /// A pane without thickness.
     ThinDielectric(ThinDielectric<C::Color>),
     /// A polished metal.
@@ -105,6 +107,7 @@ impl<C: Channels> Model<'_, C> {
             Self::SmoothDielectric(_)
             | Self::RoughDielectric(_)
             | Self::Dispersive(_)
+            | Self::Compensated(_)
             | Self::ThinDielectric(_)
             | Self::Plastic(_)
             | Self::RoughPlastic(_)
@@ -201,6 +204,7 @@ forward_bsdf!(
     SmoothDielectric,
     RoughDielectric,
     Dispersive,
+    Compensated,
     ThinDielectric,
     SmoothConductor,
     RoughConductor,

@@ -1,9 +1,9 @@
 //! From a material to its reflection model at one point.
 
 use etendue_brdf::{
-    Alpha, ComplexIor, Lambert, Microfacets, Null, Opacity, OrenNayar, OrenNayarQualitative,
-    Plastic, Reflectance, RoughConductor, RoughDielectric, RoughPlastic, Sigma, SmoothConductor,
-    SmoothDielectric, ThinDielectric,
+    Alpha, ComplexIor, KullaContyConductor, Lambert, Microfacets, Null, Opacity, OrenNayar,
+    OrenNayarQualitative, Plastic, Reflectance, RoughConductor, RoughDielectric, RoughPlastic,
+    Sigma, SmoothConductor, SmoothDielectric, ThinDielectric,
 };
 
 use etendue_math::glam::Vec3;
@@ -13,8 +13,8 @@ use super::model::{PrincipledModel, PrincipledThinModel};
 use super::perturbed::Perturbed;
 use super::prepared::Placed;
 use super::{
-    ConductorIndex, Dispersive, Material, MaterialId, Materials, Model, OrenNayarForm,
-    PlasticSurface, PreparedBsdf, Roughness, Side,
+    Compensated, Compensation, ConductorIndex, Dispersive, Material, MaterialId, Materials, Metal,
+    Model, OrenNayarForm, PlasticSurface, PreparedBsdf, Roughness, Side,
 };
 use crate::color::Channels;
 use crate::geometry::SurfacePoint;
@@ -23,6 +23,9 @@ use crate::texture::{TextureId, TexturePoint, Textures};
 /// The narrowest microfacet lobe of a rough material, as in Mitsuba: below, it is sharper than the
 /// directions of a picture can resolve.
 const LEAST_ALPHA: f32 = 1e-4;
+
+/// The widest facets whose multiple scattering is tabulated.
+const WIDEST_TABLE: f32 = 1.0;
 
 /// The textures at one point of a surface.
 #[derive(Clone, Copy)]
@@ -76,8 +79,8 @@ impl<'a, C: Channels> At<'a, C> {
     }
 
     #[inline]
-    fn facets(self, roughness: &Roughness) -> Microfacets<f32> {
-        let alpha = |id| Alpha::clamped(self.value(id).max(LEAST_ALPHA));
+    fn facets(self, roughness: &Roughness, widest: f32) -> Microfacets<f32> {
+        let alpha = |id| Alpha::clamped(self.value(id).max(LEAST_ALPHA).min(widest));
         let (u, v) = (alpha(roughness.alpha_u), alpha(roughness.alpha_v));
         Microfacets::new(roughness.distribution, u, v, roughness.masking)
     }
@@ -126,6 +129,39 @@ impl Materials {
     }
 }
 
+/// The model of a rough material with a compensation; `None` where it is of another kind than that is for.
+fn compensated<'a, C: Channels>(
+    material: &Material,
+    how: &'a Compensation,
+    at: At<'a, C>,
+) -> Option<Compensated<'a, C::Color>> {
+    match (material, how) {
+        (
+            &Material::Dielectric { specular_reflectance, specular_transmittance, .. },
+            Compensation::KullaContyGlass(glass),
+        ) => {
+            let factors = [specular_reflectance, specular_transmittance];
+            Some(Compensated::KullaContyGlass(glass, factors.map(|id| at.reflectance(id))))
+        }
+        (
+            &Material::Conductor { index, roughness: Some(ref roughness), specular_reflectance },
+            Compensation::KullaContyMetal | Compensation::TurquinMetal,
+        ) => {
+            let ior = at.complex_ior(index);
+            let facets = at.facets(roughness, WIDEST_TABLE);
+            let specular_reflectance = at.reflectance(specular_reflectance);
+            let metal = Metal { ior, facets, specular_reflectance };
+            Some(if *how == Compensation::TurquinMetal {
+                Compensated::TurquinMetal(metal)
+            } else {
+                let average = KullaContyConductor::average_reflectance(ior);
+                Compensated::KullaContyMetal(metal, average)
+            })
+        }
+        _ => None,
+    }
+}
+
 /// The model of a material that is made of no others.
 #[inline]
 fn model<'a, C: Channels>(material: Option<&'a Material>, at: At<'a, C>) -> Model<'a, C> {
@@ -156,12 +192,13 @@ fn model<'a, C: Channels>(material: Option<&'a Material>, at: At<'a, C>) -> Mode
             if let Some(dispersion) = dispersion
                 && let Some(indices) = at.channels.indices(|nm| dispersion.index(nm))
             {
-                let facets = roughness.as_ref().map(|roughness| at.facets(roughness));
+                let facets =
+                    roughness.as_ref().map(|roughness| at.facets(roughness, f32::INFINITY));
                 return Model::Dispersive(Dispersive::new(indices, facets).with_factors(ks, kt));
             }
             let smooth = SmoothDielectric::new(eta).with_factors(ks, kt);
             let Some(roughness) = roughness else { return Model::SmoothDielectric(smooth) };
-            match RoughDielectric::new(eta, at.facets(roughness)) {
+            match RoughDielectric::new(eta, at.facets(roughness, f32::INFINITY)) {
                 Ok(rough) => Model::RoughDielectric(rough.with_factors(ks, kt)),
                 // Refused for equal indices only: no facet refracts, whatever its normal.
                 Err(_) => Model::SmoothDielectric(smooth),
@@ -179,8 +216,15 @@ fn model<'a, C: Channels>(material: Option<&'a Material>, at: At<'a, C>) -> Mode
                     Model::SmoothConductor(SmoothConductor::new(ior).with_specular_reflectance(ks))
                 }
                 Some(roughness) => Model::RoughConductor(
-                    RoughConductor::new(ior, at.facets(roughness)).with_specular_reflectance(ks),
+                    RoughConductor::new(ior, at.facets(roughness, f32::INFINITY))
+                        .with_specular_reflectance(ks),
                 ),
+            }
+        }
+        Material::Compensated { nested, ref how } => {
+            match at.materials.get(nested).and_then(|nested| compensated(nested, how, at)) {
+                Some(compensated) => Model::Compensated(compensated),
+                None => model(at.materials.get(nested), at),
             }
         }
         Material::Plastic {

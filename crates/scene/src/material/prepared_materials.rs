@@ -21,10 +21,6 @@ pub struct PreparedMaterials<'a, C: Channels = Primaries> {
 
 /// How much of a material is known beforehand.
 #[derive(Debug)]
-#[expect(
-    clippy::large_enum_variant,
-    reason = "a scene has few materials, and a look-up at every hit should not follow a pointer"
-)]
 enum Readiness<'a, C: Channels> {
     /// The same everywhere: its models seen from the front and the back.
     Uniform([PreparedBsdf<'a, C>; 2]),

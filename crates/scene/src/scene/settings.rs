@@ -29,6 +29,10 @@ impl Default for SamplingSettings {
 
 /// How far paths go.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[expect(
+    clippy::struct_excessive_bools,
+    reason = "each is a question that a scene answers by itself"
+)]
 pub struct PathSettings {
     /// Largest number of edges: 1 shows emitters only, 2 adds direct light; `None` is unlimited.
     pub max_depth: Option<u32>,

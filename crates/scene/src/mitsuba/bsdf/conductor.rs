@@ -8,6 +8,7 @@ use super::super::conductors::{self, Conductor};
 use super::super::reader::PluginReader;
 use super::super::value::{Role, texture_or};
 use super::super::{Context, ior};
+use super::compensation;
 use super::roughness::roughness;
 use crate::SceneError;
 use crate::material::{ConductorIndex, Material, MaterialId, Roughness};
@@ -39,8 +40,12 @@ fn conductor<'a>(
     let index = index(reader, context)?;
     let specular_reflectance =
         texture_or(reader, context, "specular_reflectance", Role::Reflectance, 1.0)?;
+    let how = match &roughness {
+        Some(roughness) => compensation::of_metal(reader, roughness)?,
+        None => None,
+    };
     let material = Material::Conductor { index, roughness, specular_reflectance };
-    context.add_material(material, &reader.node().location)
+    compensation::add(reader, context, material, how)
 }
 
 /// The complex index relative to the outside, of which version 0.6 could state the index.

@@ -3,6 +3,7 @@
 use super::super::reader::PluginReader;
 use super::super::value::{Role, texture_or};
 use super::super::{Context, dispersion, ior};
+use super::compensation;
 use super::roughness::roughness;
 use crate::SceneError;
 use crate::material::{Material, MaterialId, Roughness};
@@ -32,6 +33,14 @@ fn interface<'a>(
     roughness: Option<Roughness>,
 ) -> Result<MaterialId, SceneError> {
     let (eta, dispersion) = dispersion::interface(reader)?;
+    let how = match &roughness {
+        Some(roughness) => compensation::of_glass(reader, context, eta, roughness)?,
+        None => None,
+    };
+    if dispersion.is_some() && how.is_some() {
+        let message = "glass cannot have both dispersion and “multiple_scattering”";
+        return Err(reader.error("multiple_scattering", message));
+    }
     let [specular_reflectance, specular_transmittance] = factors(reader, context)?;
     let material = Material::Dielectric {
         eta,
@@ -40,7 +49,7 @@ fn interface<'a>(
         specular_reflectance,
         specular_transmittance,
     };
-    context.add_material(material, &reader.node().location)
+    compensation::add(reader, context, material, how)
 }
 
 /// A pane: the parameters of `dielectric`.

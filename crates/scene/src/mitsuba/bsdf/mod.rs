@@ -1,6 +1,7 @@
 //! Surface scattering models.
 
 mod adapter;
+mod compensation;
 mod conductor;
 mod dielectric;
 mod diffuse;

@@ -7,6 +7,7 @@ use super::Conductor;
 /// # Source
 /// The measurements that Mitsuba 3.9.1 ships: E. Palik, "Handbook of Optical Constants of Solids"; SOPRA; luxpop.com.
 #[rustfmt::skip]
+#[expect(clippy::approx_constant, reason = "measured, and π by chance")]
 pub(super) const CONDUCTORS: [Conductor; 41] = [
     Conductor {
         names: &["a-C"],

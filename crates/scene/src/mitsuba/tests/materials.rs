@@ -92,7 +92,7 @@ fn dispersion_is_stated_in_four_ways() {
         }
     };
     // The formula in double precision.
-    let flint = [1.806_513, 1.775_955, 1.784_720];
+    let flint = [1.806_513, 1.775_955, 1.784_72];
     for glass in [
         "glass\" value=\"N-SF11\"",
         "sellmeier\" value=\"1.73759695, 0.013188707, 0.313747346, 0.0623068142, 1.89878101, 155.23629\"",
