@@ -38,11 +38,13 @@ const SCENES: &[(&str, f64, f64)] = &[
     ("pass-through", 0.0015, 0.0011),
     ("point-light", 0.000058, 0.00039),
     ("principled", 0.24, 0.016),
+    ("projector", 0.00014, 0.0016),
     ("rough-reflection", 0.0018, 0.0034),
     ("rough-transmission", 0.0044, 0.0047),
     ("spectral-colours", 0.0092, 0.011),
     ("spot-light", 0.00018, 0.00096),
     ("strict-normals", 0.0028, 0.0016),
+    ("volume-texture", 0.0029, 0.0023),
 ];
 
 fn scene(name: &str) -> String {

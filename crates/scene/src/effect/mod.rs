@@ -21,6 +21,8 @@ pub enum Effect {
     PointLight,
     /// Light from a point into a cone.
     SpotLight,
+    /// A picture thrown from a point.
+    Projector,
     /// Parallel light.
     DirectionalLight,
     /// The same light from everywhere.
@@ -57,13 +59,15 @@ pub enum Effect {
     CheckerboardTexture,
     /// Colours that meshes bring along.
     MeshAttribute,
+    /// Colours that fill space, on surfaces.
+    VolumeTexture,
     /// Matter of the same density everywhere, that scatters and absorbs.
     HomogeneousMedium,
     /// Matter whose density differs from place to place.
     HeterogeneousMedium,
     /// Matter that takes more of one colour than of another.
     ColouredExtinction,
-    /// Matter that scatters forwards or backwards.
+    /// Matter that scatters more into some directions than into others.
     AnisotropicScattering,
     /// Shapes that stand in several places.
     Instancing,
@@ -81,11 +85,12 @@ pub enum Effect {
 
 impl Effect {
     /// The whole vocabulary.
-    pub const ALL: [Self; 32] = [
+    pub const ALL: [Self; 34] = [
         Self::IndirectLight,
         Self::AreaLight,
         Self::PointLight,
         Self::SpotLight,
+        Self::Projector,
         Self::DirectionalLight,
         Self::ConstantBackground,
         Self::EnvironmentMap,
@@ -104,6 +109,7 @@ impl Effect {
         Self::BitmapTexture,
         Self::CheckerboardTexture,
         Self::MeshAttribute,
+        Self::VolumeTexture,
         Self::HomogeneousMedium,
         Self::HeterogeneousMedium,
         Self::ColouredExtinction,
@@ -123,6 +129,7 @@ impl Effect {
             Self::AreaLight => "area-light",
             Self::PointLight => "point-light",
             Self::SpotLight => "spot-light",
+            Self::Projector => "projector",
             Self::DirectionalLight => "directional-light",
             Self::ConstantBackground => "constant-background",
             Self::EnvironmentMap => "environment-map",
@@ -141,6 +148,7 @@ impl Effect {
             Self::BitmapTexture => "bitmap-texture",
             Self::CheckerboardTexture => "checkerboard-texture",
             Self::MeshAttribute => "mesh-attribute",
+            Self::VolumeTexture => "volume-texture",
             Self::HomogeneousMedium => "homogeneous-medium",
             Self::HeterogeneousMedium => "heterogeneous-medium",
             Self::ColouredExtinction => "coloured-extinction",
@@ -163,7 +171,7 @@ impl Effect {
             Self::AreaLight => {
                 "a light sample and a shadow ray per surface met, a look at every surface whether it emits"
             }
-            Self::PointLight | Self::SpotLight | Self::DirectionalLight => {
+            Self::PointLight | Self::SpotLight | Self::Projector | Self::DirectionalLight => {
                 "a choice among lights, a light sample and a shadow ray per surface met"
             }
             Self::ConstantBackground => {
@@ -207,6 +215,9 @@ impl Effect {
             Self::MeshAttribute => {
                 "a copy of the point, a name found, a value of each corner and a model of its own per surface met"
             }
+            Self::VolumeTexture => {
+                "a copy of the point, a place in the grid, eight cells and a model of its own per surface met"
+            }
             Self::HomogeneousMedium => {
                 "a random number per ray in it and a vertex per collision, shadow rays that stop at every surface"
             }
@@ -216,7 +227,7 @@ impl Effect {
             Self::ColouredExtinction => {
                 "a random number per sample and three exponentials per collision or way through"
             }
-            Self::AnisotropicScattering => "a frame and a root per collision",
+            Self::AnisotropicScattering => "a frame, and a root or a search, per collision",
             Self::Instancing => "a ray transformed and a second hierarchy entered per instance met",
             Self::DepthOfField => "two random numbers and a point on the lens per sample",
             Self::MotionBlur => {
