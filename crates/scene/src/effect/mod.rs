@@ -39,6 +39,8 @@ pub enum Effect {
     RoughTransmission,
     /// Glass that parts white light into its colours.
     Dispersion,
+    /// Transparent bodies that overlap.
+    NestedDielectrics,
     /// Light that facets scatter more than once.
     MultipleScattering,
     /// Disney's material of many lobes.
@@ -85,7 +87,7 @@ pub enum Effect {
 
 impl Effect {
     /// The whole vocabulary.
-    pub const ALL: [Self; 34] = [
+    pub const ALL: [Self; 35] = [
         Self::IndirectLight,
         Self::AreaLight,
         Self::PointLight,
@@ -99,6 +101,7 @@ impl Effect {
         Self::RoughReflection,
         Self::RoughTransmission,
         Self::Dispersion,
+        Self::NestedDielectrics,
         Self::MultipleScattering,
         Self::Principled,
         Self::OpacityMask,
@@ -138,6 +141,7 @@ impl Effect {
             Self::RoughReflection => "rough-reflection",
             Self::RoughTransmission => "rough-transmission",
             Self::Dispersion => "dispersion",
+            Self::NestedDielectrics => "nested-dielectrics",
             Self::MultipleScattering => "multiple-scattering",
             Self::Principled => "principled",
             Self::OpacityMask => "opacity-mask",
@@ -194,6 +198,9 @@ impl Effect {
             }
             Self::Dispersion => {
                 "four wavelengths instead of three primaries all over the scene, models made at every surface met"
+            }
+            Self::NestedDielectrics => {
+                "paths that know which bodies they are in, a look at every surface whether it is one of them, and a model of its own for it"
             }
             Self::MultipleScattering => {
                 "a row of a table interpolated and a model made each time it is evaluated or sampled, a second lobe"
