@@ -7,7 +7,7 @@ use etendue_math::glam::DVec3;
 use etendue_sampling::{Decision, Dimension, Independent, Sampler};
 use etendue_scene::geometry::{Animation, Motion, Placement, Shape, Shutter, Transform};
 use etendue_scene::material::Material;
-use etendue_scene::medium::{Extinction, Medium, Phase, Volume};
+use etendue_scene::medium::{Extinction, Medium, MediumCurves, Phase, Volume};
 use etendue_scene::scene::SamplerKind;
 use etendue_scene::{Color, Scene};
 
@@ -123,6 +123,7 @@ fn fog(time: Option<f64>) -> Scene {
         extinction: Extinction::Homogeneous(Color::splat(sigma)),
         albedo: Volume::constant(Color::splat(0.8)),
         phase: Phase::Isotropic,
+        curves: MediumCurves::default(),
         samples_lights: true,
     };
     let thick = sketch.medium(medium(3.0));
