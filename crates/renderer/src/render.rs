@@ -13,6 +13,7 @@ use crate::configuration::{Configuration, Configured};
 use crate::film::{FilterSampler, Image, PixelFilter, PixelSum};
 use crate::light_sampler::LightSampler;
 use crate::path::{PathTracer, Prepared, Transport};
+use crate::renderer_error::RendererError;
 use crate::settings::RenderSettings;
 use crate::statistics::{RayCounts, SampleAddress, Statistics};
 use crate::tile::Tile;
@@ -31,22 +32,6 @@ pub struct Renderer<'a> {
     has_motion: bool,
     pub(crate) filter: FilterSampler,
     pool: rayon::ThreadPool,
-}
-
-/// The threads that a render needs could not be started.
-#[derive(Debug)]
-pub struct ThreadError(rayon::ThreadPoolBuildError);
-
-impl core::fmt::Display for ThreadError {
-    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        write!(f, "the threads for rendering could not be started: {}", self.0)
-    }
-}
-
-impl core::error::Error for ThreadError {
-    fn source(&self) -> Option<&(dyn core::error::Error + 'static)> {
-        Some(&self.0)
-    }
 }
 
 /// How far a render is.
@@ -73,17 +58,20 @@ impl<'a> Renderer<'a> {
     /// Prepares materials, lights, filter and threads.
     ///
     /// # Errors
-    /// The threads cannot be started.
-    pub fn new(scene: &'a Scene, settings: RenderSettings) -> Result<Self, ThreadError> {
+    /// The threads cannot be started; the program was compiled without the configuration that the scene calls for.
+    pub fn new(scene: &'a Scene, settings: RenderSettings) -> Result<Self, RendererError> {
+        let configuration = Configuration::of(scene, &settings);
+        if !configuration.is_compiled() {
+            return Err(RendererError::NotCompiled(configuration));
+        }
         let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(settings.threads)
             .thread_name(|i| format!("render {i}"))
             .build()
-            .map_err(ThreadError)?;
+            .map_err(RendererError::Threads)?;
         let materials = Prepared::new(scene);
         let lights = LightSampler::new(scene);
         let filter = FilterSampler::new(&scene.film);
-        let configuration = Configuration::of(scene, &settings);
         let has_motion = scene.has_motion();
         Ok(Self { scene, settings, configuration, materials, lights, has_motion, filter, pool })
     }

@@ -1,7 +1,7 @@
 //! From a material to its reflection model at one point.
 
 use etendue_brdf::{
-    Alpha, ComplexIor, KullaContyConductor, Lambert, Microfacets, Null, Opacity, OrenNayar,
+    Alpha, ComplexIor, Ior, KullaContyConductor, Lambert, Microfacets, Null, Opacity, OrenNayar,
     OrenNayarQualitative, Plastic, Reflectance, RoughConductor, RoughDielectric, RoughPlastic,
     Sigma, SmoothConductor, SmoothDielectric, ThinDielectric,
 };
@@ -14,7 +14,7 @@ use super::perturbed::Perturbed;
 use super::prepared::Placed;
 use super::{
     Compensated, Compensation, ConductorIndex, Dispersive, Material, MaterialId, Materials, Metal,
-    Model, OrenNayarForm, PlasticSurface, PreparedBsdf, Roughness, Side,
+    Model, OrenNayarForm, PlasticSurface, PreparedBsdf, RelativeDispersion, Roughness, Side,
 };
 use crate::color::Channels;
 use crate::geometry::SurfacePoint;
@@ -162,10 +162,36 @@ fn compensated<'a, C: Channels>(
     }
 }
 
+/// The model of an interface between transparent media.
+fn interface<'a, C: Channels>(
+    eta: Ior<f32>,
+    dispersion: Option<&RelativeDispersion>,
+    roughness: Option<&Roughness>,
+    [ks, kt]: [Reflectance<C::Color>; 2],
+    at: At<'a, C>,
+) -> Model<'a, C> {
+    let facets = roughness.map(|roughness| at.facets(roughness, f32::INFINITY));
+    if let Some(dispersion) = dispersion
+        && let Some(indices) = at.channels.indices(|nm| dispersion.index(nm))
+    {
+        return Model::Dispersive(Dispersive::new(indices, facets).with_factors(ks, kt));
+    }
+    // Refused for equal indices only: no facet refracts, whatever its normal.
+    let rough = facets.and_then(|facets| RoughDielectric::new(eta, facets).ok());
+    match rough {
+        Some(rough) => Model::RoughDielectric(rough.with_factors(ks, kt)),
+        None => Model::SmoothDielectric(SmoothDielectric::new(eta).with_factors(ks, kt)),
+    }
+}
+
 /// The model of a material that is made of no others.
 #[inline]
 fn model<'a, C: Channels>(material: Option<&'a Material>, at: At<'a, C>) -> Model<'a, C> {
     let Some(material) = material else { return Model::Null(Null::new()) };
+    if let Some((_, false)) = material.family() {
+        // Refused when it was added; said again so that nothing of it is linked.
+        return Model::Null(Null::new());
+    }
     match *material {
         Material::Diffuse { reflectance } => {
             Model::Lambert(Lambert::new(at.reflectance(reflectance)))
@@ -187,22 +213,9 @@ fn model<'a, C: Channels>(material: Option<&'a Material>, at: At<'a, C>) -> Mode
             specular_reflectance,
             specular_transmittance,
         } => {
-            let ks = at.reflectance(specular_reflectance);
-            let kt = at.reflectance(specular_transmittance);
-            if let Some(dispersion) = dispersion
-                && let Some(indices) = at.channels.indices(|nm| dispersion.index(nm))
-            {
-                let facets =
-                    roughness.as_ref().map(|roughness| at.facets(roughness, f32::INFINITY));
-                return Model::Dispersive(Dispersive::new(indices, facets).with_factors(ks, kt));
-            }
-            let smooth = SmoothDielectric::new(eta).with_factors(ks, kt);
-            let Some(roughness) = roughness else { return Model::SmoothDielectric(smooth) };
-            match RoughDielectric::new(eta, at.facets(roughness, f32::INFINITY)) {
-                Ok(rough) => Model::RoughDielectric(rough.with_factors(ks, kt)),
-                // Refused for equal indices only: no facet refracts, whatever its normal.
-                Err(_) => Model::SmoothDielectric(smooth),
-            }
+            let factors =
+                [specular_reflectance, specular_transmittance].map(|id| at.reflectance(id));
+            interface(eta, dispersion.as_deref(), roughness.as_ref(), factors, at)
         }
         Material::ThinDielectric { eta, specular_reflectance, specular_transmittance } => {
             let ks = at.reflectance(specular_reflectance);
