@@ -23,6 +23,7 @@ const SCENES: &[(&str, f64, f64)] = &[
     ("delta-transmission", 0.005, 0.0037),
     ("depth-of-field", 0.0021, 0.0017),
     ("directional-light", 0.00025, 0.0006),
+    ("dispersion", 0.16, 0.017),
     ("environment-map", 0.0031, 0.0024),
     ("heterogeneous-medium", 0.02, 0.011),
     ("hidden-emitters", 0.0021, 0.0035),
@@ -31,15 +32,19 @@ const SCENES: &[(&str, f64, f64)] = &[
     ("instancing", 0.0037, 0.0022),
     ("mesh-attribute", 0.026, 0.01),
     ("motion-blur", 0.0031, 0.0014),
+    ("multiple-scattering", 0.016, 0.0097),
     ("normal-map", 0.057, 0.011),
     ("opacity-mask", 0.015, 0.0028),
     ("pass-through", 0.0015, 0.0011),
     ("point-light", 0.000058, 0.00039),
     ("principled", 0.24, 0.016),
+    ("projector", 0.00014, 0.0016),
     ("rough-reflection", 0.0018, 0.0034),
     ("rough-transmission", 0.0044, 0.0047),
+    ("spectral-colours", 0.0092, 0.011),
     ("spot-light", 0.00018, 0.00096),
     ("strict-normals", 0.0028, 0.0016),
+    ("volume-texture", 0.0029, 0.0023),
 ];
 
 fn scene(name: &str) -> String {

@@ -26,6 +26,7 @@ const MUCH: &str = r#"<scene version="3.0.0">
     <emitter type="constant"/>
     <emitter type="directional"/>
     <emitter type="spot"/>
+    <emitter type="projector"/>
     <texture type="checkerboard" id="board"/>
     <bsdf type="conductor" id="mirror"/>
     <shape type="sphere"><ref id="mirror"/></shape>
@@ -105,18 +106,19 @@ fn every_effect_names_the_element_that_calls_for_it() {
     let effects = effects(MUCH);
     let expected = [
         ("indirect-light", "integrator “path” at scene.xml:2:5"),
-        ("area-light", "shape “rectangle” at scene.xml:25:5"),
+        ("area-light", "shape “rectangle” at scene.xml:26:5"),
         ("spot-light", "emitter “spot” at scene.xml:11:5"),
+        ("projector", "emitter “projector” at scene.xml:12:5"),
         ("directional-light", "emitter “directional” at scene.xml:10:5"),
         ("constant-background", "emitter “constant” at scene.xml:9:5"),
-        ("delta-reflection", "bsdf “conductor” at scene.xml:13:5 and 1 more"),
-        ("delta-transmission", "bsdf “thindielectric” at scene.xml:16:26"),
-        ("rough-reflection", "bsdf “roughdielectric” at scene.xml:22:62"),
-        ("rough-transmission", "bsdf “roughdielectric” at scene.xml:22:62"),
-        ("opacity-mask", "bsdf “mask” at scene.xml:17:26"),
-        ("pass-through", "bsdf “null” at scene.xml:21:26"),
-        ("checkerboard-texture", "texture “checkerboard” at scene.xml:12:5"),
-        ("instancing", "shape “instance” at scene.xml:23:5 and 1 more"),
+        ("delta-reflection", "bsdf “conductor” at scene.xml:14:5 and 1 more"),
+        ("delta-transmission", "bsdf “thindielectric” at scene.xml:17:26"),
+        ("rough-reflection", "bsdf “roughdielectric” at scene.xml:23:62"),
+        ("rough-transmission", "bsdf “roughdielectric” at scene.xml:23:62"),
+        ("opacity-mask", "bsdf “mask” at scene.xml:18:26"),
+        ("pass-through", "bsdf “null” at scene.xml:22:26"),
+        ("checkerboard-texture", "texture “checkerboard” at scene.xml:13:5"),
+        ("instancing", "shape “instance” at scene.xml:24:5 and 1 more"),
         ("depth-of-field", "sensor “thinlens” at scene.xml:6:5"),
         ("motion-blur", "shape “sphere” at scene.xml:26:5"),
         ("hidden-emitters", "integrator “path” at scene.xml:2:5"),

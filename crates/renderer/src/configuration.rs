@@ -26,7 +26,7 @@ impl Configuration {
     pub(crate) fn of(scene: &Scene, settings: &RenderSettings) -> Self {
         if settings.path.spectral || scene.has_dispersion() {
             Self::Spectral
-        } else if settings.path.volumes && scene.has_volumes() {
+        } else if settings.path.volumes && scene.has_volumes() || scene.materials.nest() {
             Self::Volumes
         } else {
             Self::Surfaces

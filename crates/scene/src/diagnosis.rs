@@ -53,6 +53,7 @@ impl Scene {
             Light::Area(area) => !self.textures.max(area.radiance).is_black(),
             Light::Point(light) => !light.intensity.is_black(),
             Light::Spot(light) => light.power(&self.textures) > 0.0,
+            Light::Projector(light) => light.power(&self.textures) > 0.0,
             Light::Directional(light) => !light.irradiance.is_black(),
             Light::Constant(light) => !light.radiance.is_black(),
             Light::Environment(light) => light.power(1.0) > 0.0,

@@ -13,9 +13,9 @@ use etendue_math::Vector3;
 use crate::camera::Camera;
 use crate::color::Primaries;
 use crate::film::Film;
-use crate::geometry::{Geometry, Located, SurfacePoint};
+use crate::geometry::{Geometry, Located, ShapeId, SurfacePoint};
 use crate::light::{Light, LightId};
-use crate::material::{Material, MaterialId, Materials, PreparedBsdf, Side};
+use crate::material::{Material, MaterialId, Materials, Nesting, PreparedBsdf, Side};
 use crate::medium::{Boundary, Media, MediumId};
 use crate::texture::Textures;
 
@@ -170,6 +170,15 @@ impl Scene {
     pub fn has_dispersion(&self) -> bool {
         let used = self.materials.with_parts(self.surfaces.iter().map(|surface| surface.material));
         used.into_iter().any(|id| self.materials.get(id).is_some_and(Material::disperses))
+    }
+
+    /// The body among others whose surface a shape is, if it is one.
+    #[inline]
+    pub fn nesting(&self, shape: ShapeId) -> Option<Nesting> {
+        match self.materials.get(self.surfaces[shape.0 as usize].material) {
+            Some(&Material::Dielectric { nesting, .. }) => nesting,
+            _ => None,
+        }
     }
 
     /// A point that the geometry has given, as [`prepare`](Self::prepare) takes it.

@@ -13,7 +13,7 @@ pub type Function<T> = (&'static str, fn(&Inputs<T>, &mut Results));
 
 /// Every function, in the order of the crates.
 #[expect(clippy::too_many_lines, reason = "a table, one row per function")]
-pub fn functions<T: Scalar>() -> [Function<T>; 42] {
+pub fn functions<T: Scalar>() -> [Function<T>; 44] {
     // Arguments of elementary functions in [−8, 8) and [0, 16).
     [
         ("sqrt", |i, out| out.number(wide(i.u[0]).sqrt())),
@@ -71,6 +71,16 @@ pub fn functions<T: Scalar>() -> [Function<T>; 42] {
             if let Some(phase) = phase {
                 warped::<T>(out, phase.from_square(pair(i)), |w| phase.to_square(w));
                 out.number(phase.pdf(i.wi));
+            }
+        }),
+        ("rayleigh", |i, out| {
+            warped::<T>(out, warp::rayleigh::from_square(pair(i)), warp::rayleigh::to_square);
+            out.number(warp::rayleigh::pdf(i.wi.z()));
+        }),
+        ("linear", |i, out| {
+            if let Some(linear) = warp::linear::Linear::<T>::new(i.u[1], i.u[2]) {
+                let x = linear.from_unit(i.u[0]);
+                out.numbers([x, linear.to_unit(x), linear.pdf(x)]);
             }
         }),
         ("triangle", |i, out| {

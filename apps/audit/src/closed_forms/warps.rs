@@ -2,12 +2,14 @@
 
 use etendue_math::{Real, Vec3, Vector3};
 use etendue_sampling::warp::cone::Cone;
+use etendue_sampling::warp::henyey_greenstein::HenyeyGreenstein;
+use etendue_sampling::warp::linear::Linear;
 use etendue_sampling::warp::rectangle::Rectangle;
 use etendue_sampling::warp::seen_sphere::SeenSphere;
 use etendue_sampling::warp::spherical_rectangle::SphericalRectangle;
 use etendue_sampling::warp::spherical_triangle::SphericalTriangle;
 use etendue_sampling::warp::{
-    cosine_hemisphere, disk, triangle, uniform_hemisphere, uniform_sphere,
+    cosine_hemisphere, disk, rayleigh, triangle, uniform_hemisphere, uniform_sphere,
 };
 
 use super::ClosedForm;
@@ -85,6 +87,12 @@ fn directions<T: Scalar>() -> Vec<Warp<T>> {
             move |w| cone.pdf(w),
         ),
         Warp::new(
+            "Rayleigh",
+            |u| Some(rayleigh::from_square(u)),
+            rayleigh::to_square,
+            |w: Vec3<T>| rayleigh::pdf(w.z()),
+        ),
+        Warp::new(
             "disk",
             |u| {
                 let [x, y] = disk::from_square(u);
@@ -96,7 +104,7 @@ fn directions<T: Scalar>() -> Vec<Warp<T>> {
     ]
 }
 
-fn shapes<T: Scalar>() -> Vec<Warp<T>> {
+fn validated<T: Scalar>() -> Vec<Warp<T>> {
     let corners: [Vec3<T>; 3] =
         [[0.2, -0.4, 1.0], [1.1, 0.3, 1.4], [-0.3, 0.8, 0.9]].map(narrow::<T>);
     let rectangle: Rectangle<T> = Rectangle {
@@ -125,6 +133,22 @@ fn shapes<T: Scalar>() -> Vec<Warp<T>> {
             move |_| rectangle.pdf(),
         ),
     ];
+    if let Some(lobe) = HenyeyGreenstein::new(T::lit(0.6)) {
+        warps.push(Warp::new(
+            "Henyey–Greenstein",
+            move |u| Some(lobe.from_square(u)),
+            move |w| lobe.to_square(w),
+            move |w| lobe.pdf(w),
+        ));
+    }
+    if let Some(linear) = Linear::new(T::lit(0.3), T::ONE) {
+        warps.push(Warp::new(
+            "linear density",
+            move |[u, v]| Some(Vec3::<T>::new(linear.from_unit(u), v, T::ZERO)),
+            move |p| [linear.to_unit(p.x()), p.y()],
+            move |p| linear.pdf(p.x()),
+        ));
+    }
     if let Some(seen) = SphericalTriangle::new(corners) {
         warps.push(Warp::new(
             "spherical triangle",
@@ -157,9 +181,9 @@ fn shapes<T: Scalar>() -> Vec<Warp<T>> {
     warps
 }
 
-/// Twelve, or a constructor has refused what it should not.
+/// Fifteen, or a constructor has refused what it should not.
 fn all<T: Scalar>() -> Vec<Warp<T>> {
-    directions().into_iter().chain(shapes()).collect()
+    directions().into_iter().chain(validated()).collect()
 }
 
 /// `|∂w/∂u × ∂w/∂v| p(w) = 1` by central differences. Bound: 1e-6; steps of 1e-5 leave their square times third
@@ -197,7 +221,7 @@ fn jacobian(budget: Budget) -> Outcome {
 fn round_trip<T: Scalar>(budget: Budget) -> Outcome {
     let mut worst = Worst::default();
     let warps = all::<T>();
-    worst.observe(if warps.len() == 12 { 0.0 } else { f64::INFINITY }, || "refused".to_owned());
+    worst.observe(if warps.len() == 15 { 0.0 } else { f64::INFINITY }, || "refused".to_owned());
     for warp in warps {
         for i in 0..budget.draws as u64 {
             let [a, b, _] = uniforms::<T>(332, i);

@@ -87,4 +87,32 @@ pub(super) const MUTATIONS: &[Mutation] = &[
         replace: "(cos, sin)",
         filters: &["warp"],
     },
+    Mutation {
+        fault: "Rayleigh's density without its constant term: lost 1",
+        file: "crates/sampling/src/warp/rayleigh.rs",
+        find: "(T::ONE + cos_theta * cos_theta)",
+        replace: "(T::TWO * cos_theta * cos_theta)",
+        filters: &["warp"],
+    },
+    Mutation {
+        fault: "root of Rayleigh's cubic with φ for 1/φ: wrong factor",
+        file: "crates/sampling/src/warp/rayleigh.rs",
+        find: "(root + T::ONE / golden)",
+        replace: "(root + golden)",
+        filters: &["warp"],
+    },
+    Mutation {
+        fault: "rising density with its ends exchanged",
+        file: "crates/sampling/src/warp/linear.rs",
+        find: "a * a * (T::ONE - u) + b * b * u",
+        replace: "b * b * (T::ONE - u) + a * a * u",
+        filters: &["warp"],
+    },
+    Mutation {
+        fault: "Henyey and Greenstein's sine without the backward factor: lost term",
+        file: "crates/sampling/src/warp/henyey_greenstein.rs",
+        find: "u * ((T::ONE + g) * rest + u);",
+        replace: "u * ((T::ONE - g) * rest + u);",
+        filters: &["warp"],
+    },
 ];

@@ -97,6 +97,7 @@ fn light_name(light: &Light) -> &'static str {
         Light::Area(_) => "area",
         Light::Point(_) => "point",
         Light::Spot(_) => "spot",
+        Light::Projector(_) => "projector",
         Light::Directional(_) => "directional",
         Light::Constant(_) => "constant",
         Light::Environment(_) => "environment map",

@@ -9,7 +9,9 @@ use etendue_sampling::warp::henyey_greenstein::HenyeyGreenstein;
 use etendue_scene::geometry::{Shape, Transform, TriangleMesh};
 use etendue_scene::light::{Light, PointLight};
 use etendue_scene::material::Material;
-use etendue_scene::medium::{Density, Extinction, GridFilter, Medium, Phase, Volume, VolumeGrid};
+use etendue_scene::medium::{
+    BlendPhase, Density, Extinction, GridFilter, Medium, Phase, TabulatedPhase, Volume, VolumeGrid,
+};
 use etendue_scene::texture::Wrap;
 use etendue_scene::{Color, Scene};
 
@@ -21,6 +23,21 @@ const COLOURED: [[f32; 3]; 3] = [[0.5, 1.0, 3.0], [3.0, 0.5, 1.0], [1.0, 0.0, 0.
 
 fn forwards(g: f32) -> Phase {
     Phase::HenyeyGreenstein(HenyeyGreenstein::new(g).expect("in (−1, 1)"))
+}
+
+/// Mostly sideways, a little backwards.
+fn steps() -> Phase {
+    Phase::Tabulated(TabulatedPhase::new(&[0.5, 0.0, 3.0, 2.0, 0.0, 0.0]).expect("a table"))
+}
+
+/// Forwards on one side of x = 0, by the table on the other.
+fn half_and_half() -> Phase {
+    let grid = VolumeGrid::new([2, 1, 1], 1, [0.2, 0.9].into()).expect("two cells");
+    let size = Transform::scale(DVec3::splat(4.0)).expect("a size");
+    let to_world = Transform::translate(DVec3::splat(-2.0)).and_then(|t| t.compose(&size));
+    let to_world = to_world.expect("regular");
+    let weight = Volume::grid(grid, to_world, GridFilter::Trilinear, Wrap::Clamp);
+    Phase::Blend(Box::new(BlendPhase { weight, parts: [forwards(0.7), steps()] }))
 }
 
 fn homogeneous(sigma: [f32; 3], albedo: f32, phase: Phase) -> Medium {
@@ -48,7 +65,7 @@ fn grid(sigma: [f32; 3], albedo: f32, phase: Phase, value: impl Fn(u32) -> f32) 
 
 /// A medium of the same density everywhere, in both forms.
 fn both_forms(sigma: [f32; 3], albedo: f32, phase: Phase) -> [Medium; 2] {
-    [homogeneous(sigma, albedo, phase), grid(sigma, albedo, phase, |_| 1.0)]
+    [homogeneous(sigma, albedo, phase.clone()), grid(sigma, albedo, phase, |_| 1.0)]
 }
 
 /// From nothing to twice the mean.
@@ -104,6 +121,9 @@ fn media_that_absorb_nothing_are_invisible_in_even_light() {
         let media = [
             homogeneous(sigma, albedo, Phase::Isotropic),
             grid(sigma, albedo, forwards(-0.5), speckled),
+            homogeneous(sigma, albedo, Phase::Rayleigh),
+            homogeneous(sigma, albedo, steps()),
+            homogeneous(sigma, albedo, half_and_half()),
         ];
         for medium in media {
             let scene = ball(medium, |sketch| sketch.sky(1.0));
@@ -216,12 +236,16 @@ fn a_constant_grid_looks_like_a_homogeneous_medium() {
 
 #[test]
 fn all_strategies_agree_in_media() {
-    let medium = || grid([1.0, 0.7, 0.5], 0.8, forwards(0.5), speckled);
-    let run =
-        |strategy| estimate(&lamp_in_a_block(medium()), through_media(Some(6), strategy), 300_000);
-    let mis = run(Strategy::Mis);
-    for strategy in [Strategy::BsdfOnly, Strategy::LightOnly] {
-        assert_equal(mis, run(strategy));
+    let phases: [fn() -> Phase; 3] = [|| forwards(0.5), || Phase::Rayleigh, half_and_half];
+    for phase in phases {
+        let run = |strategy| {
+            let medium = grid([1.0, 0.7, 0.5], 0.8, phase(), speckled);
+            estimate(&lamp_in_a_block(medium), through_media(Some(6), strategy), 300_000)
+        };
+        let mis = run(Strategy::Mis);
+        for strategy in [Strategy::BsdfOnly, Strategy::LightOnly] {
+            assert_equal(mis, run(strategy));
+        }
     }
 }
 

@@ -10,6 +10,7 @@ mod furnace;
 mod health;
 mod media;
 mod motion;
+mod nesting;
 mod scenes;
 mod spectral;
 mod strategies;

@@ -56,6 +56,7 @@ impl Sketch {
         Material::Dielectric {
             eta: Ior::new(1.5).expect("an index"),
             dispersion: dispersion.map(relative),
+            nesting: None,
             roughness: alpha.map(|alpha| self.facets(alpha)),
             specular_reflectance: white,
             specular_transmittance: white,

@@ -2,7 +2,7 @@
 
 use etendue_math::{Real, Vec3, Vector3};
 
-use super::{into_unit, turn};
+use super::{from_poles, into_unit, turn};
 
 /// Henyey and Greenstein's density of directions around +z, with mean cosine `g`.
 ///
@@ -121,14 +121,6 @@ impl<T: Real> HenyeyGreenstein<T> {
         let distance = if self.g < T::ZERO { one_plus_cos } else { one_minus_cos };
         (T::ONE - g) * (T::ONE - g) + T::TWO * g * distance
     }
-}
-
-/// `1 − z` and `1 + z` of a unit vector without cancellation.
-#[inline]
-fn from_poles<T: Real>(w: Vec3<T>) -> [T; 2] {
-    let far = T::ONE + w.z().abs();
-    let near = (w.x() * w.x() + w.y() * w.y()) / far;
-    if w.z() > T::ZERO { [near, far] } else { [far, near] }
 }
 
 #[cfg(test)]

@@ -11,6 +11,8 @@
 //! | [`cosine_hemisphere`] | z ≥ 0, concentric and polar | solid angle | z/π |
 //! | [`cone`] | directions within a cap | solid angle | 1/Ω |
 //! | [`henyey_greenstein`] | all directions, around ±z | solid angle | (1 − g²)/(4π q^³ᐟ²) |
+//! | [`rayleigh`] | all directions, around ±z | solid angle | 3(1 + z²)/16π |
+//! | [`linear`] | `[0, 1)`, from one uniform | length | 2(a(1 − x) + bx)/(a + b) |
 //! | [`seen_sphere`] | directions that hit a sphere | solid angle | 1/Ω outside, from area inside |
 //! | [`triangle`] | barycentric coordinates | area | 1/A |
 //! | [`spherical_triangle`] | directions that hit a triangle | solid angle | 1/Ω |
@@ -25,6 +27,8 @@ pub mod cone;
 pub mod cosine_hemisphere;
 pub mod disk;
 pub mod henyey_greenstein;
+pub mod linear;
+pub mod rayleigh;
 pub mod rectangle;
 pub mod seen_sphere;
 pub mod spherical_rectangle;
@@ -34,7 +38,7 @@ pub mod turn;
 pub mod uniform_hemisphere;
 pub mod uniform_sphere;
 
-use etendue_math::{Real, Vector3};
+use etendue_math::{Real, Vec3, Vector3};
 
 /// `a × b`, each component within 1.5 ulp where the plain products would cancel.
 #[inline]
@@ -44,6 +48,14 @@ fn accurate_cross<V: Vector3>(a: V, b: V) -> V {
         Real::difference_of_products(a.z(), b.x(), a.x(), b.z()),
         Real::difference_of_products(a.x(), b.y(), a.y(), b.x()),
     )
+}
+
+/// `1 − z` and `1 + z` of a unit vector without cancellation.
+#[inline]
+fn from_poles<T: Real>(w: Vec3<T>) -> [T; 2] {
+    let far = T::ONE + w.z().abs();
+    let near = (w.x() * w.x() + w.y() * w.y()) / far;
+    if w.z() > T::ZERO { [near, far] } else { [far, near] }
 }
 
 /// A coordinate of the square brought back into `[0, 1)` after rounding; 0 for NaN.

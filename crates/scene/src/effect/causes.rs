@@ -3,7 +3,7 @@
 use super::Effect;
 use crate::light::Light;
 use crate::material::{Material, PlasticSurface};
-use crate::medium::{Extinction, Medium, Phase};
+use crate::medium::{Extinction, Medium};
 use crate::texture::{Texture, TextureId};
 
 /// The effect of a light.
@@ -12,6 +12,7 @@ pub(super) fn of_light(light: &Light) -> Effect {
         Light::Area(_) => Effect::AreaLight,
         Light::Point(_) => Effect::PointLight,
         Light::Spot(_) => Effect::SpotLight,
+        Light::Projector(_) => Effect::Projector,
         Light::Directional(_) => Effect::DirectionalLight,
         Light::Constant(_) => Effect::ConstantBackground,
         Light::Environment(_) => Effect::EnvironmentMap,
@@ -25,6 +26,7 @@ pub(super) fn of_texture(texture: &Texture) -> Option<Effect> {
         Texture::Bitmap(_) => Some(Effect::BitmapTexture),
         Texture::Checkerboard(_) => Some(Effect::CheckerboardTexture),
         Texture::Attribute(_) => Some(Effect::MeshAttribute),
+        Texture::Volume(_) => Some(Effect::VolumeTexture),
     }
 }
 
@@ -91,6 +93,6 @@ pub(super) fn of_extinction(medium: &Medium) -> Effect {
 /// The effects of a medium.
 pub(super) fn of_medium(medium: &Medium) -> impl Iterator<Item = Effect> {
     let coloured = medium.is_coloured().then_some(Effect::ColouredExtinction);
-    let anisotropic = (medium.phase != Phase::Isotropic).then_some(Effect::AnisotropicScattering);
+    let anisotropic = (!medium.phase.is_isotropic()).then_some(Effect::AnisotropicScattering);
     [Some(of_extinction(medium)), coloured, anisotropic].into_iter().flatten()
 }

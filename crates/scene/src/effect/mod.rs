@@ -21,6 +21,8 @@ pub enum Effect {
     PointLight,
     /// Light from a point into a cone.
     SpotLight,
+    /// A picture thrown from a point.
+    Projector,
     /// Parallel light.
     DirectionalLight,
     /// The same light from everywhere.
@@ -37,6 +39,8 @@ pub enum Effect {
     RoughTransmission,
     /// Glass that parts white light into its colours.
     Dispersion,
+    /// Transparent bodies that overlap.
+    NestedDielectrics,
     /// Light that facets scatter more than once.
     MultipleScattering,
     /// Disney's material of many lobes.
@@ -57,13 +61,15 @@ pub enum Effect {
     CheckerboardTexture,
     /// Colours that meshes bring along.
     MeshAttribute,
+    /// Colours that fill space, on surfaces.
+    VolumeTexture,
     /// Matter of the same density everywhere, that scatters and absorbs.
     HomogeneousMedium,
     /// Matter whose density differs from place to place.
     HeterogeneousMedium,
     /// Matter that takes more of one colour than of another.
     ColouredExtinction,
-    /// Matter that scatters forwards or backwards.
+    /// Matter that scatters more into some directions than into others.
     AnisotropicScattering,
     /// Shapes that stand in several places.
     Instancing,
@@ -81,11 +87,12 @@ pub enum Effect {
 
 impl Effect {
     /// The whole vocabulary.
-    pub const ALL: [Self; 32] = [
+    pub const ALL: [Self; 35] = [
         Self::IndirectLight,
         Self::AreaLight,
         Self::PointLight,
         Self::SpotLight,
+        Self::Projector,
         Self::DirectionalLight,
         Self::ConstantBackground,
         Self::EnvironmentMap,
@@ -94,6 +101,7 @@ impl Effect {
         Self::RoughReflection,
         Self::RoughTransmission,
         Self::Dispersion,
+        Self::NestedDielectrics,
         Self::MultipleScattering,
         Self::Principled,
         Self::OpacityMask,
@@ -104,6 +112,7 @@ impl Effect {
         Self::BitmapTexture,
         Self::CheckerboardTexture,
         Self::MeshAttribute,
+        Self::VolumeTexture,
         Self::HomogeneousMedium,
         Self::HeterogeneousMedium,
         Self::ColouredExtinction,
@@ -123,6 +132,7 @@ impl Effect {
             Self::AreaLight => "area-light",
             Self::PointLight => "point-light",
             Self::SpotLight => "spot-light",
+            Self::Projector => "projector",
             Self::DirectionalLight => "directional-light",
             Self::ConstantBackground => "constant-background",
             Self::EnvironmentMap => "environment-map",
@@ -131,6 +141,7 @@ impl Effect {
             Self::RoughReflection => "rough-reflection",
             Self::RoughTransmission => "rough-transmission",
             Self::Dispersion => "dispersion",
+            Self::NestedDielectrics => "nested-dielectrics",
             Self::MultipleScattering => "multiple-scattering",
             Self::Principled => "principled",
             Self::OpacityMask => "opacity-mask",
@@ -141,6 +152,7 @@ impl Effect {
             Self::BitmapTexture => "bitmap-texture",
             Self::CheckerboardTexture => "checkerboard-texture",
             Self::MeshAttribute => "mesh-attribute",
+            Self::VolumeTexture => "volume-texture",
             Self::HomogeneousMedium => "homogeneous-medium",
             Self::HeterogeneousMedium => "heterogeneous-medium",
             Self::ColouredExtinction => "coloured-extinction",
@@ -163,7 +175,7 @@ impl Effect {
             Self::AreaLight => {
                 "a light sample and a shadow ray per surface met, a look at every surface whether it emits"
             }
-            Self::PointLight | Self::SpotLight | Self::DirectionalLight => {
+            Self::PointLight | Self::SpotLight | Self::Projector | Self::DirectionalLight => {
                 "a choice among lights, a light sample and a shadow ray per surface met"
             }
             Self::ConstantBackground => {
@@ -187,6 +199,9 @@ impl Effect {
             Self::Dispersion => {
                 "four wavelengths instead of three primaries all over the scene, models made at every surface met"
             }
+            Self::NestedDielectrics => {
+                "paths that know which bodies they are in, a look at every surface whether it is one of them, and a model of its own for it"
+            }
             Self::MultipleScattering => {
                 "a row of a table interpolated and a model made each time it is evaluated or sampled, a second lobe"
             }
@@ -207,6 +222,9 @@ impl Effect {
             Self::MeshAttribute => {
                 "a copy of the point, a name found, a value of each corner and a model of its own per surface met"
             }
+            Self::VolumeTexture => {
+                "a copy of the point, a place in the grid, eight cells and a model of its own per surface met"
+            }
             Self::HomogeneousMedium => {
                 "a random number per ray in it and a vertex per collision, shadow rays that stop at every surface"
             }
@@ -216,7 +234,7 @@ impl Effect {
             Self::ColouredExtinction => {
                 "a random number per sample and three exponentials per collision or way through"
             }
-            Self::AnisotropicScattering => "a frame and a root per collision",
+            Self::AnisotropicScattering => "a frame, and a root or a search, per collision",
             Self::Instancing => "a ray transformed and a second hierarchy entered per instance met",
             Self::DepthOfField => "two random numbers and a point on the lens per sample",
             Self::MotionBlur => {

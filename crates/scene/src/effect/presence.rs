@@ -81,6 +81,9 @@ impl Scene {
             let Some(mut material) = self.materials.get(id).cloned() else { continue };
             let element = Element::Material(id);
             causes.extend(of_surface(&material).map(|effect| (effect, element)));
+            if matches!(material, Material::Dielectric { nesting: Some(_), .. }) {
+                causes.push((Effect::NestedDielectrics, element));
+            }
             if material.disperses() {
                 causes.push((Effect::Dispersion, element));
             }

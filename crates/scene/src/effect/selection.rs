@@ -19,6 +19,7 @@ impl Scene {
     /// * light: lights are not there, shapes that emit are dark, paths end at the second edge without indirect light;
     /// * reflection and transmission: the lobe is black, and a surface that has no other one is black altogether;
     /// * glass has the index of the yellow line of helium for every wavelength, and paths carry RGB;
+    /// * bodies that overlap are each there, in what is around all of them;
     /// * facets lose what they scatter more than once;
     /// * principled materials are diffuse; surfaces with opacity masks are whole, those that let light pass are black;
     ///   of two that are blended the heavier one is there; normals are those of the shape;
@@ -106,10 +107,9 @@ fn changed(
     }
     let mut changed = material.clone();
     let mut is_simpler = false;
-    if let Material::Dielectric { dispersion, .. } = &mut changed
-        && out(Effect::Dispersion)
-    {
-        is_simpler |= dispersion.take().is_some();
+    if let Material::Dielectric { dispersion, nesting, .. } = &mut changed {
+        is_simpler |= out(Effect::Dispersion) && dispersion.take().is_some();
+        is_simpler |= out(Effect::NestedDielectrics) && nesting.take().is_some();
     }
     let (mut lobes, mut left_out) = (0, 0);
     for (effect, factor) in of_lobes(&mut changed) {

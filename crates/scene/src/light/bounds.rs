@@ -3,7 +3,7 @@
 use etendue_math::Real;
 use etendue_math::glam::Vec3;
 
-use super::{AreaLight, PointLight, SpotLight};
+use super::{AreaLight, PointLight, ProjectorLight, SpotLight};
 use crate::geometry::{Aabb, Shape};
 use crate::texture::Textures;
 
@@ -27,8 +27,8 @@ pub enum EmissionSides {
 pub struct LightBounds {
     /// A box around the light.
     pub bounds: Aabb,
-    /// Power in W. Of a spot light: what it would emit if it were as strong everywhere as along its
-    /// axis, because `cos_theta_e` accounts for the cone.
+    /// Power in W. Of a spot light or a projector: what it would emit if it were as strong everywhere as along its
+    /// axis, because the angles account for the cone.
     pub power: f32,
     /// Middle of the cone of normals, a unit vector.
     pub axis: Vec3,
@@ -85,6 +85,19 @@ impl LightBounds {
             axis: light.axis(),
             cos_theta_o: Real::cos(beam_width),
             cos_theta_e: Real::cos(cutoff - beam_width),
+            sides: EmissionSides::One,
+        }
+    }
+
+    /// Of a projector: θo is the angle of its picture's corners, for within the picture it does not grow weaker towards
+    /// them.
+    pub(crate) fn of_projector(light: &ProjectorLight, textures: &Textures) -> Self {
+        Self {
+            bounds: Aabb::from_points([light.position()]),
+            power: 4.0 * f32::PI * light.peak(textures),
+            axis: light.axis(),
+            cos_theta_o: light.cos_corner(),
+            cos_theta_e: 1.0,
             sides: EmissionSides::One,
         }
     }

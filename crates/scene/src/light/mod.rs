@@ -4,6 +4,7 @@ mod area;
 mod bounds;
 mod environment;
 mod point;
+mod projector;
 mod spot;
 
 use etendue_brdf::Density;
@@ -13,6 +14,7 @@ pub use area::AreaLight;
 pub use bounds::{EmissionSides, LightBounds};
 pub use environment::EnvironmentLight;
 pub use point::{ConstantLight, DirectionalLight, PointLight};
+pub use projector::ProjectorLight;
 pub use spot::SpotLight;
 
 use crate::Color;
@@ -31,6 +33,8 @@ pub enum Light {
     Point(PointLight),
     /// A point that emits into a cone.
     Spot(SpotLight),
+    /// A point that throws a picture.
+    Projector(ProjectorLight),
     /// Parallel light from infinitely far away.
     Directional(DirectionalLight),
     /// The same light from all directions.
@@ -49,14 +53,15 @@ impl Light {
     /// Whether only light sampling finds it: no ray hits a point or a single direction.
     #[inline]
     pub fn is_delta(&self) -> bool {
-        matches!(self, Self::Point(_) | Self::Spot(_) | Self::Directional(_))
+        matches!(self, Self::Point(_) | Self::Spot(_) | Self::Projector(_) | Self::Directional(_))
     }
 
-    /// The texture of its radiance or intensity; the map of an environment belongs to the light itself.
+    /// The texture of its radiance, intensity or irradiance; the map of an environment belongs to the light itself.
     pub fn texture(&self) -> Option<TextureId> {
         match self {
             Self::Area(light) => Some(light.radiance),
             Self::Spot(light) => light.texture(),
+            Self::Projector(light) => Some(light.texture()),
             Self::Point(_) | Self::Directional(_) | Self::Constant(_) | Self::Environment(_) => {
                 None
             }
@@ -93,6 +98,9 @@ pub enum LightError {
     /// The angles of a spot light are not `0 ≤ beam width ≤ cutoff ≤ 180` with a positive cutoff.
     #[error("the beam width must lie between 0 and the cutoff angle, and that at most at 180°")]
     Cone,
+    /// The field of view of a projector is outside its domain, or its picture has no pixels.
+    #[error("the field of view must lie between 0° and 180°")]
+    FieldOfView,
     /// The transform of an environment map does more than rotate, mirror and scale evenly.
     #[error("the transform of an environment map may only rotate, mirror and scale evenly")]
     Transform,

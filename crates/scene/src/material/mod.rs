@@ -7,6 +7,7 @@ mod compensated;
 mod composed;
 mod dispersive;
 mod model;
+mod nesting;
 mod perturbed;
 mod prepare;
 mod prepared;
@@ -27,6 +28,7 @@ pub use compensated::{Compensated, Compensation, Metal};
 pub use composed::Composed;
 pub use dispersive::{Dispersed, Dispersive, RelativeDispersion};
 pub use model::{Model, PrincipledModel, PrincipledThinModel};
+pub use nesting::Nesting;
 pub use perturbed::Perturbation;
 pub use prepared::{PreparedBsdf, Side};
 pub use prepared_materials::{PreparedMaterials, Varying};
@@ -63,6 +65,8 @@ pub enum Material {
         eta: Ior<f32>,
         /// The same index for every wavelength; none where it is that of all.
         dispersion: Option<Box<RelativeDispersion>>,
+        /// What it is where bodies overlap; none where they do not.
+        nesting: Option<Nesting>,
         /// None for a smooth one.
         roughness: Option<Roughness>,
         /// Factor of reflected light, 1 physically.
@@ -339,6 +343,13 @@ impl Materials {
             // A material refers to earlier ones only: this ends.
             Some(material) => material.nested().any(|part| self.may_pass(part)),
         }
+    }
+
+    /// Whether there are [bodies among others](Nesting).
+    pub fn nest(&self) -> bool {
+        let nests =
+            |material: &Material| matches!(material, Material::Dielectric { nesting: Some(_), .. });
+        self.materials.iter().any(nests)
     }
 
     /// Materials and those that they are made of.

@@ -34,6 +34,8 @@ pub(super) struct At<'a, C> {
     textures: &'a Textures,
     point: TexturePoint<'a>,
     channels: C,
+    /// Index of refraction outside of a body among others, where it is not that of its material.
+    exterior: Option<f32>,
 }
 
 impl<'a, C: Channels> At<'a, C> {
@@ -48,7 +50,7 @@ impl<'a, C: Channels> At<'a, C> {
     }
 
     fn composed(self, how: Composition) -> Model<'a, C> {
-        let Self { materials, textures, point, channels } = self;
+        let Self { materials, textures, point, channels, .. } = self;
         Model::Composed(Composed::new(Parts { materials, textures, point, channels }, how))
     }
 
@@ -109,7 +111,20 @@ impl Materials {
         side: Side,
         channels: C,
     ) -> PreparedBsdf<'a, C> {
-        let at = At { materials: self, textures, point, channels };
+        self.prepare_within(id, textures, point, side, channels, None)
+    }
+
+    /// The same for a surface of a [body among others](super::Nesting), which has one of index `exterior` around it there.
+    pub fn prepare_within<'a, C: Channels>(
+        &'a self,
+        id: MaterialId,
+        textures: &'a Textures,
+        point: TexturePoint<'a>,
+        side: Side,
+        channels: C,
+        exterior: Option<f32>,
+    ) -> PreparedBsdf<'a, C> {
+        let at = At { materials: self, textures, point, channels, exterior };
         let mut material = self.get(id);
         let mut opacity = 1.0;
         // Masks of masks end: each refers to a material before itself.
@@ -165,7 +180,7 @@ fn compensated<'a, C: Channels>(
 /// The model of an interface between transparent media.
 fn interface<'a, C: Channels>(
     eta: Ior<f32>,
-    dispersion: Option<&RelativeDispersion>,
+    dispersion: Option<RelativeDispersion>,
     roughness: Option<&Roughness>,
     [ks, kt]: [Reflectance<C::Color>; 2],
     at: At<'a, C>,
@@ -209,13 +224,21 @@ fn model<'a, C: Channels>(material: Option<&'a Material>, at: At<'a, C>) -> Mode
         Material::Dielectric {
             eta,
             ref dispersion,
+            nesting,
             ref roughness,
             specular_reflectance,
             specular_transmittance,
         } => {
             let factors =
                 [specular_reflectance, specular_transmittance].map(|id| at.reflectance(id));
-            interface(eta, dispersion.as_deref(), roughness.as_ref(), factors, at)
+            let exterior = nesting.and(at.exterior);
+            // An index outside the domain is as good as that of the material: the scene format knows how far they go.
+            let nested = nesting.zip(exterior).and_then(|(n, e)| Ior::new(n.interior / e).ok());
+            let dispersion = dispersion.as_deref().map(|&dispersion| RelativeDispersion {
+                exterior: exterior.map_or(dispersion.exterior, f64::from),
+                ..dispersion
+            });
+            interface(nested.unwrap_or(eta), dispersion, roughness.as_ref(), factors, at)
         }
         Material::ThinDielectric { eta, specular_reflectance, specular_transmittance } => {
             let ks = at.reflectance(specular_reflectance);

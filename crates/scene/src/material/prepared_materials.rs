@@ -98,6 +98,30 @@ impl<'a, C: Channels> PreparedMaterials<'a, C> {
         }
     }
 
+    /// The same for a surface of a [body among others](super::Nesting), which has one of index `exterior` around it there.
+    #[inline(never)]
+    pub fn at_within<'b>(
+        &'b self,
+        id: MaterialId,
+        point: SurfacePoint,
+        side: Side,
+        channels: C,
+        exterior: f32,
+        varying: &'b mut Varying<'b, C>,
+    ) -> &'b PreparedBsdf<'b, C> {
+        let surface = &*varying.surface.insert(Located::new(self.geometry, point));
+        let Self { materials, textures, .. } = *self;
+        let at = surface.into();
+        varying.bsdf.insert(materials.prepare_within(
+            id,
+            textures,
+            at,
+            side,
+            channels,
+            Some(exterior),
+        ))
+    }
+
     /// The same for a material that depends on more than texture coordinates; out of line.
     #[inline(never)]
     fn at_surface<'b>(
@@ -127,7 +151,7 @@ fn needs_surface(id: MaterialId, materials: &Materials, textures: &Textures) -> 
         return true;
     }
     let used = textures.with_parts(parts.into_iter().flat_map(Material::textures));
-    used.into_iter().any(|id| matches!(textures.get(id), Some(Texture::Attribute(_))))
+    used.into_iter().any(|id| textures.get(id).is_some_and(Texture::needs_surface))
 }
 
 /// Whether all textures of a material, and of those that it is made of, are constant.
@@ -142,7 +166,8 @@ mod tests {
     use super::*;
     use crate::Color;
     use crate::geometry::{GeometryBuilder, Ray, Rectangle, Shape, Transform};
-    use crate::texture::{AttributeTexture, Checkerboard, UvTransform};
+    use crate::medium::Volume;
+    use crate::texture::{AttributeTexture, Checkerboard, UvTransform, VolumeTexture};
     use etendue_brdf::Bsdf;
     use etendue_math::Spectrum;
     use etendue_math::glam::Vec3;
@@ -197,7 +222,7 @@ mod tests {
     }
 
     #[test]
-    fn only_what_varies_is_made_on_the_spot_and_only_attributes_need_the_surface() {
+    fn only_what_varies_is_made_on_the_spot_and_only_attributes_and_volumes_need_the_surface() {
         let (geometry, _) = square();
         let mut textures = Textures::default();
         let white = textures.constant(Color::splat(1.0));
@@ -208,13 +233,15 @@ mod tests {
         let mixed = Checkerboard { color0: white, color1, uv: UvTransform::IDENTITY };
         let mixed = textures.add(Texture::Checkerboard(mixed));
         let mut materials = Materials::default();
-        for reflectance in [white, board, mixed] {
+        let volume = Volume::constant(Color::splat(0.5));
+        let volume = textures.add(Texture::Volume(VolumeTexture { volume }));
+        for reflectance in [white, board, mixed, volume] {
             materials.add(Material::Diffuse { reflectance }).expect("it refers to none");
         }
         let prepared = PreparedMaterials::<Primaries>::new(&materials, &textures, &geometry);
         assert!(matches!(
             prepared.readiness[..],
-            [Readiness::Uniform(_), Readiness::Coordinates, Readiness::Surface]
+            [Readiness::Uniform(_), Readiness::Coordinates, Readiness::Surface, Readiness::Surface]
         ));
     }
 }

@@ -106,6 +106,32 @@ impl VolumeGrid {
         matches!(self.values, Values::Rgb(_))
     }
 
+    /// The mean over all cells.
+    pub(super) fn mean(&self) -> Color {
+        let mut sums = [0.0_f64; 3];
+        self.for_each(|color| {
+            for (sum, channel) in sums.iter_mut().zip(color.to_array()) {
+                *sum += f64::from(channel);
+            }
+        });
+        let cells = self.size.iter().map(|&n| f64::from(n)).product::<f64>();
+        sums.map(|sum| (sum / cells) as f32).into()
+    }
+
+    /// The largest value of each channel.
+    pub(super) fn max(&self) -> Color {
+        let mut largest = Color::black();
+        self.for_each(|color| largest = largest.zip(color, f32::max));
+        largest
+    }
+
+    fn for_each(&self, see: impl FnMut(Color)) {
+        match &self.values {
+            Values::Grey(values) => values.iter().map(|&value| Color::splat(value)).for_each(see),
+            Values::Rgb(values) => values.iter().map(|&value| Color::from(value)).for_each(see),
+        }
+    }
+
     /// The value of a cell; the last one along an axis for larger indices.
     #[inline]
     pub fn cell(&self, cell: [u32; 3]) -> Color {
@@ -162,6 +188,8 @@ mod tests {
         assert_eq!(grid.cell([9, 9, 9]).r, 23.0);
         let rgb = VolumeGrid::new([1, 1, 2], 3, (0..6).map(|i| i as f32).collect()).expect("two");
         assert_eq!(rgb.cell([0, 0, 1]), Color::new(3.0, 4.0, 5.0));
+        assert_eq!((rgb.mean(), rgb.max()), (Color::new(1.5, 2.5, 3.5), Color::new(3.0, 4.0, 5.0)));
+        assert_eq!((grid.mean(), grid.max()), (Color::splat(11.5), Color::splat(23.0)));
     }
 
     #[test]

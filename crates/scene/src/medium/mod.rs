@@ -19,7 +19,7 @@ use etendue_math::glam::Vec3;
 pub use density::Density;
 pub use grid::{GridError, VolumeGrid};
 pub use majorants::Stretch;
-pub use phase::Phase;
+pub use phase::{BlendPhase, Phase, TabulatedPhase};
 pub use volume::{GridFilter, Volume};
 
 use crate::Color;

@@ -100,6 +100,32 @@ impl Volume {
         }
     }
 
+    /// The number at a point of the world: the mean of a constant colour, the luminance of a grid's; of greys the value
+    /// itself, as in Mitsuba 3 (3.9.1).
+    pub fn value_at(&self, position: Vec3) -> f32 {
+        match &self.values {
+            Values::Constant(color) => color.mean(),
+            Values::Grid(placed) if !placed.grid.has_colours() => placed.at(position).r,
+            Values::Grid(placed) => placed.at(position).luminance(),
+        }
+    }
+
+    /// The mean over the cells.
+    pub(crate) fn mean(&self) -> Color {
+        match &self.values {
+            Values::Constant(color) => *color,
+            Values::Grid(placed) => placed.grid.mean(),
+        }
+    }
+
+    /// The largest value of each channel.
+    pub(crate) fn max(&self) -> Color {
+        match &self.values {
+            Values::Constant(color) => *color,
+            Values::Grid(placed) => placed.grid.max(),
+        }
+    }
+
     /// A bound of all channels within a box of the world.
     pub(super) fn largest_within(&self, region: &Aabb) -> f32 {
         match &self.values {

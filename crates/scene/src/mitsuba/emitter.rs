@@ -4,6 +4,7 @@ use alloc::format;
 
 use etendue_math::glam::{DVec3, Vec3};
 
+use super::field_of_view::field_of_view;
 use super::image::image;
 use super::reader::PluginReader;
 use super::value::{Role, color_or, texture_if_given, texture_or};
@@ -12,7 +13,7 @@ use crate::SceneError;
 use crate::effect::Element;
 use crate::light::{
     ConstantLight, DirectionalLight, EnvironmentLight, Light, LightError, LightId, PointLight,
-    SpotLight,
+    ProjectorLight, SpotLight,
 };
 use crate::load::Encoding;
 use crate::texture::{Texture, TextureId};
@@ -25,6 +26,7 @@ const EMITTERS: &Family<Light> = &[
     ("directional", directional),
     ("envmap", envmap),
     ("point", point),
+    ("projector", projector),
     ("spot", spot),
 ];
 
@@ -52,19 +54,19 @@ fn area<'a>(
 ) -> Result<TextureId, SceneError> {
     ignore_weights(reader);
     let radiance = texture_or(reader, context, "radiance", Role::Emission, 1.0)?;
-    without_attributes(reader, context, "radiance", radiance)
+    by_coordinates(reader, context, "radiance", radiance)
 }
 
-/// The texture of a light, which cannot be one of a mesh's attributes: lights are chosen by their power beforehand.
-fn without_attributes(
+/// The texture of a light, which cannot be an attribute of a mesh or a volume: lights are chosen by their power beforehand.
+fn by_coordinates(
     reader: &PluginReader<'_>,
     context: &Context<'_>,
     name: &'static str,
     texture: TextureId,
 ) -> Result<TextureId, SceneError> {
     let parts = context.textures.with_parts([texture]);
-    if parts.iter().any(|&id| matches!(context.textures.get(id), Some(Texture::Attribute(_)))) {
-        let message = format!("“{name}” cannot be an attribute of a mesh");
+    if parts.iter().any(|&id| context.textures.get(id).is_some_and(Texture::needs_surface)) {
+        let message = format!("“{name}” cannot be an attribute of a mesh or a volume");
         return Err(reader.error(name, message));
     }
     Ok(texture)
@@ -127,7 +129,7 @@ fn spot<'a>(reader: &mut PluginReader<'a>, context: &mut Context<'a>) -> Result<
     ignore_weights(reader);
     let intensity = color_or(reader, context, "intensity", Role::Emission, 1.0)?;
     let texture = texture_if_given(reader, context, "texture", Role::Emission)?
-        .map(|texture| without_attributes(reader, context, "texture", texture))
+        .map(|texture| by_coordinates(reader, context, "texture", texture))
         .transpose()?;
     let cutoff = reader.float("cutoff_angle")?.unwrap_or(20.0);
     let beam_width = reader.float("beam_width")?.unwrap_or(0.75 * cutoff);
@@ -135,6 +137,24 @@ fn spot<'a>(reader: &mut PluginReader<'a>, context: &mut Context<'a>) -> Result<
     SpotLight::new(to_world, intensity, texture, cutoff, beam_width)
         .map(Light::Spot)
         .map_err(|e| refused(reader, "cutoff_angle", e))
+}
+
+/// `irradiance` (1), whose size gives the picture its aspect; `scale` (1), `to_world`, and `fov` with `fov_axis` or
+/// `focal_length` as of the sensor `perspective`.
+fn projector<'a>(
+    reader: &mut PluginReader<'a>,
+    context: &mut Context<'a>,
+) -> Result<Light, SceneError> {
+    ignore_weights(reader);
+    let irradiance = texture_or(reader, context, "irradiance", Role::Emission, 1.0)?;
+    let irradiance = by_coordinates(reader, context, "irradiance", irradiance)?;
+    let valid = |scale| (0.0..=f64::from(f32::MAX)).contains(&scale);
+    let scale = reader.float_in("scale", 1.0, "not negative", valid)? as f32;
+    let to_world = reader.transform("to_world")?;
+    let (view, size) = (field_of_view(reader)?, context.textures.size(irradiance));
+    ProjectorLight::new(to_world, irradiance, scale, view, size)
+        .map(Light::Projector)
+        .map_err(|e| refused(reader, "focal_length", e))
 }
 
 /// `filename`, `scale` (1), `to_world`.

@@ -16,6 +16,7 @@ mod conductors;
 mod context;
 mod dispersion;
 mod emitter;
+mod field_of_view;
 mod film;
 mod framing;
 mod image;

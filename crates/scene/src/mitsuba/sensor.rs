@@ -2,15 +2,16 @@
 
 use alloc::format;
 
+use super::field_of_view::field_of_view;
 use super::reader::PluginReader;
 use super::{Context, Family, film, medium, sampler};
 use crate::SceneError;
-use crate::camera::{Camera, FieldOfView, FovAxis, Projection};
+use crate::camera::{Camera, Projection};
 use crate::effect::Element;
 use crate::film::Film;
 use crate::geometry::Shutter;
 use crate::scene::SamplingSettings;
-use crate::xml::{NodeId, parse_float};
+use crate::xml::NodeId;
 
 /// A camera with what belongs to it.
 pub(super) struct Sensor {
@@ -103,37 +104,4 @@ fn sensor<'a>(
     };
     let camera = camera.map_err(|e| reader.error("fov", format!("{}: {e}", reader.title())))?;
     Ok(Sensor { camera, film, sampling })
-}
-
-fn field_of_view(reader: &mut PluginReader<'_>) -> Result<FieldOfView, SceneError> {
-    let axis = reader.choice(
-        "fov_axis",
-        &[
-            ("x", FovAxis::X),
-            ("y", FovAxis::Y),
-            ("diagonal", FovAxis::Diagonal),
-            ("smaller", FovAxis::Smaller),
-            ("larger", FovAxis::Larger),
-        ],
-    )?;
-    let focal_length = reader.string("focal_length")?;
-    match (reader.float("fov")?, focal_length) {
-        (Some(_), Some(_)) => {
-            Err(reader.error("focal_length", "give either “fov” or “focal_length”"))
-        }
-        (Some(degrees), None) if degrees > 0.0 && degrees < 180.0 => {
-            Ok(FieldOfView::Angle { degrees, axis })
-        }
-        (Some(degrees), None) => {
-            let message = format!("“fov” must lie between 0 and 180 degrees, but is {degrees}");
-            Err(reader.error("fov", message))
-        }
-        (None, text) => {
-            let text = text.unwrap_or("50mm");
-            let millimetres = parse_float(text.strip_suffix("mm").unwrap_or(text));
-            millimetres
-                .map(|millimetres| FieldOfView::FocalLength { millimetres })
-                .ok_or_else(|| reader.error("focal_length", format!("“{text}” is no focal length")))
-        }
-    }
 }

@@ -151,6 +151,7 @@ fn emitters_have_their_parameters() {
     }
     assert!(matches!(light("<emitter type=\"constant\"/>"), Light::Constant(_)));
     assert!(matches!(light("<emitter type=\"spot\"/>"), Light::Spot(_)));
+    assert!(matches!(light("<emitter type=\"projector\"/>"), Light::Projector(_)));
     refused("<emitter type=\"area\"/>", 2, "must stand inside a shape");
     refused(
         "<emitter type=\"point\"><point name=\"position\" value=\"1\"/>\
@@ -167,6 +168,21 @@ fn emitters_have_their_parameters() {
         "<emitter type=\"spot\">\n<float name=\"cutoff_angle\" value=\"-3\"/></emitter>",
         3,
         "cutoff",
+    );
+    refused(
+        "<emitter type=\"projector\">\n<float name=\"fov\" value=\"180\"/></emitter>",
+        3,
+        "must lie between 0 and 180 degrees",
+    );
+    refused(
+        "<emitter type=\"projector\">\n<string name=\"focal_length\" value=\"0mm\"/></emitter>",
+        3,
+        "the field of view must lie between 0° and 180°",
+    );
+    refused(
+        "<emitter type=\"projector\">\n<float name=\"scale\" value=\"-1\"/></emitter>",
+        3,
+        "not negative",
     );
 }
 

@@ -3,13 +3,15 @@
 use super::image::image;
 use super::reader::PluginReader;
 use super::value::{Role, color_or, texture_or};
-use super::{Context, Family};
+use super::{Context, Family, medium};
 use alloc::format;
 
 use crate::SceneError;
 use crate::effect::Element;
 use crate::load::Encoding;
-use crate::texture::{AttributeTexture, Bitmap, Checkerboard, Filter, Texture, TextureId, Wrap};
+use crate::texture::{
+    AttributeTexture, Bitmap, Checkerboard, Filter, Texture, TextureId, VolumeTexture, Wrap,
+};
 use crate::xml::NodeId;
 
 /// The textures there are, spectra with a type included.
@@ -20,6 +22,7 @@ const TEXTURES: &Family<TextureId> = &[
     ("mesh_attribute", mesh_attribute),
     ("srgb", srgb),
     ("uniform", uniform),
+    ("volume", volume),
 ];
 
 /// The texture a node describes, translated once however often it is referred to.
@@ -87,6 +90,15 @@ fn mesh_attribute<'a>(
     let valid = |x| (0.0..=f64::from(f32::MAX)).contains(&x);
     let scale = reader.float_in("scale", 1.0, "not negative", valid)? as f32;
     Ok(context.textures.add(Texture::Attribute(AttributeTexture { name: name.into(), scale })))
+}
+
+/// `volume` (volume, 0.75), looked up where the surface is in the world.
+fn volume<'a>(
+    reader: &mut PluginReader<'a>,
+    context: &mut Context<'a>,
+) -> Result<TextureId, SceneError> {
+    let volume = medium::volume::or(reader, context, "volume", Role::Reflectance, 0.75)?;
+    Ok(context.textures.add(Texture::Volume(VolumeTexture { volume })))
 }
 
 /// `<spectrum type="uniform">`

@@ -34,9 +34,9 @@ pub enum InvalidScene {
     /// A light names a texture that does not exist.
     #[error("light {0} refers to a texture that does not exist")]
     Texture(u32),
-    /// A light looks up an attribute of a mesh.
-    #[error("light {0} refers to an attribute of a mesh")]
-    Attribute(u32),
+    /// A light looks up an attribute of a mesh or a volume.
+    #[error("light {0} refers to an attribute of a mesh or to a volume")]
+    NeedsSurface(u32),
     /// A light is refused.
     #[error("light {light}: {error}")]
     Light {
@@ -97,11 +97,10 @@ fn check_light(
     textures: &Textures,
 ) -> Result<(), InvalidScene> {
     let refused = |error| InvalidScene::Light { light: id.0, error };
-    let is_attribute =
-        |part: &TextureId| matches!(textures.get(*part), Some(Texture::Attribute(_)));
+    let needs_surface = |part: &TextureId| textures.get(*part).is_some_and(Texture::needs_surface);
     let known = |texture: TextureId| match textures.get(texture) {
-        Some(_) if textures.with_parts([texture]).iter().any(is_attribute) => {
-            Err(InvalidScene::Attribute(id.0))
+        Some(_) if textures.with_parts([texture]).iter().any(needs_surface) => {
+            Err(InvalidScene::NeedsSurface(id.0))
         }
         Some(_) => Ok(()),
         None => Err(InvalidScene::Texture(id.0)),
@@ -116,6 +115,7 @@ fn check_light(
         }
         Light::Point(light) => light.check().map_err(refused),
         Light::Spot(light) => light.texture().map_or(Ok(()), known),
+        Light::Projector(light) => known(light.texture()),
         Light::Directional(light) => {
             *light = light.normalized().map_err(refused)?;
             Ok(())

@@ -59,6 +59,7 @@ impl Scene {
             Light::Area(_) => None,
             Light::Point(light) => light.sample(from),
             Light::Spot(light) => light.sample(from, &self.textures),
+            Light::Projector(light) => light.sample(from, &self.textures),
             Light::Directional(light) => light.sample(),
             Light::Constant(light) => light.sample(u),
             Light::Environment(light) => light.sample(u),
@@ -136,6 +137,9 @@ impl Scene {
                 Light::Spot(light) => {
                     list.push((id, 0, LightBounds::of_spot(light, &self.textures)));
                 }
+                Light::Projector(light) => {
+                    list.push((id, 0, LightBounds::of_projector(light, &self.textures)));
+                }
                 Light::Directional(_) | Light::Constant(_) | Light::Environment(_) => {}
             }
         }
@@ -152,6 +156,7 @@ impl Scene {
             }
             Some(Light::Point(light)) => light.power(),
             Some(Light::Spot(light)) => light.power(&self.textures),
+            Some(Light::Projector(light)) => light.power(&self.textures),
             Some(Light::Directional(light)) => light.power(self.radius),
             Some(Light::Constant(light)) => light.power(self.radius),
             Some(Light::Environment(light)) => light.power(self.radius),

@@ -8,7 +8,7 @@ use crate::geometry::{
 };
 use crate::light::{
     AreaLight, ConstantLight, DirectionalLight, EnvironmentLight, LightError, LightSample,
-    PointLight, SpotLight,
+    PointLight, ProjectorLight, SpotLight,
 };
 use crate::material::Material;
 use crate::texture::{
@@ -226,6 +226,10 @@ fn lights_without_surface_have_the_textbook_irradiance() {
         Light::Constant(ConstantLight { radiance: two }),
         Light::Environment(map),
     ];
+    let picture = parts.textures.constant(two);
+    let view = FieldOfView::Angle { degrees: 40.0, axis: FovAxis::X };
+    let projector = ProjectorLight::new(above, picture, 1.0, view, [1, 1]);
+    parts.lights.push(Light::Projector(projector.expect("a projector")));
     let scene = Scene::new(parts).expect("a scene without shapes");
     let lit = lit_by(Shape::Rectangle(ceiling()), white);
     let origin = SurfacePoint { position: Vec3::ZERO, ..floor(&lit) };
@@ -236,13 +240,16 @@ fn lights_without_surface_have_the_textbook_irradiance() {
         assert_eq!((sample.direction, sample.target), (Vec3::Z, Some(Vec3::Z * 2.0)));
         assert_eq!((sample.radiance.r, sample.density), (0.5, Density::Delta(1.0)));
     }
+    let picture = sample(5).expect("it is lit");
+    assert_eq!((picture.direction, picture.target), (Vec3::Z, Some(Vec3::Z * 2.0)));
+    assert_eq!((picture.radiance.r, picture.density), (0.5 * f32::PI, Density::Delta(1.0)));
     let sun = sample(2).expect("it is lit");
     assert_eq!((sun.direction, sun.target, sun.radiance), (Vec3::Z, None, two));
     let sky = sample(3).expect("it is lit");
     assert_eq!(sky.density, Density::Continuous(scene.light_pdf_escaped(LightId(3), Vec3::X)));
     assert_eq!(scene.background(sky.direction).r, 2.5);
     assert_eq!(scene.infinite_lights(), [LightId(2), LightId(3), LightId(4)]);
-    assert_eq!(scene.finite_lights().len(), 2);
+    assert_eq!(scene.finite_lights().len(), 3);
     assert_eq!(scene.light_pdf_escaped(LightId(2), Vec3::Z), 0.0);
     assert_eq!(sample(9), None);
 }
@@ -303,7 +310,7 @@ fn parts_that_do_not_fit_are_refused() {
         let spot = SpotLight::new(Transform::IDENTITY, white, texture, 20.0, 10.0);
         p.lights.push(Light::Spot(spot.expect("a spot light")));
     };
-    assert_eq!(refused(&attribute), Some(InvalidScene::Attribute(0)));
+    assert_eq!(refused(&attribute), Some(InvalidScene::NeedsSurface(0)));
     assert_eq!(refused(&|p| p.film.crop.size = [5, 1]), Some(InvalidScene::Crop));
 }
 

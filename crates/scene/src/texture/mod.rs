@@ -10,6 +10,7 @@ mod checkerboard;
 mod image;
 mod point;
 mod uv_transform;
+mod volume;
 
 use alloc::boxed::Box;
 use alloc::collections::BTreeSet;
@@ -24,6 +25,7 @@ pub(crate) use image::split;
 pub use image::{BitmapError, BitmapImage};
 pub use point::TexturePoint;
 pub use uv_transform::UvTransform;
+pub use volume::VolumeTexture;
 
 use crate::Color;
 use crate::color::{Channels, Curve};
@@ -43,6 +45,15 @@ pub enum Texture {
     Checkerboard(Checkerboard),
     /// What a mesh brings along.
     Attribute(AttributeTexture),
+    /// What fills space.
+    Volume(VolumeTexture),
+}
+
+impl Texture {
+    /// Whether it is looked up at the surface itself and not at texture coordinates.
+    pub(crate) fn needs_surface(&self) -> bool {
+        matches!(self, Self::Attribute(_) | Self::Volume(_))
+    }
 }
 
 /// All textures of a scene.
@@ -95,6 +106,10 @@ impl Textures {
             Texture::Attribute(attribute) => {
                 let bound = Color::splat(attribute.scale);
                 (Texture::Attribute(attribute), bound, bound)
+            }
+            Texture::Volume(texture) => {
+                let (mean, max) = (texture.volume.mean(), texture.volume.max());
+                (Texture::Volume(texture), mean, max)
             }
         };
         self.entries.push(Entry { texture, mean, max, curve: None });
@@ -189,6 +204,7 @@ impl Textures {
                 if square < id { self.color(square, at) } else { Color::black() }
             }
             Texture::Attribute(attribute) => attribute.color(at),
+            Texture::Volume(texture) => texture.color(at),
         }
     }
 
@@ -203,6 +219,7 @@ impl Textures {
                 let square = board.other_square(at.uv);
                 if square < id { self.value(square, at) } else { 0.0 }
             }
+            Some(Texture::Volume(texture)) => texture.value(at),
             _ => {
                 let color = self.color(id, at);
                 // The weights of the luminance add up to 1 only after rounding.
@@ -253,7 +270,7 @@ impl Textures {
         self.entries.is_empty()
     }
 
-    /// The mean over the unit square of the untransformed texture: over the texels of a bitmap. An attribute, of which only
+    /// The mean over the unit square of the untransformed texture: over the texels of a bitmap, over the cells of a volume. An attribute, of which only
     /// meshes know more, counts as 1 times its scale.
     pub fn mean(&self, id: TextureId) -> Color {
         self.entries.get(id.0 as usize).map_or(Color::black(), |entry| entry.mean)
@@ -262,6 +279,14 @@ impl Textures {
     /// An upper bound of each channel; of an attribute one for values up to 1.
     pub fn max(&self, id: TextureId) -> Color {
         self.entries.get(id.0 as usize).map_or(Color::black(), |entry| entry.max)
+    }
+
+    /// Columns and rows of a bitmap; 1 × 1 of every other texture.
+    pub(crate) fn size(&self, id: TextureId) -> [u32; 2] {
+        match self.get(id) {
+            Some(Texture::Bitmap(bitmap)) => [bitmap.image().width(), bitmap.image().height()],
+            _ => [1, 1],
+        }
     }
 
     /// Whether the texture is black everywhere, being constant.

@@ -32,7 +32,7 @@ impl<'s, R: Rays, C: Channels> PathTracer<'_, 's, R, C> {
             return None;
         }
         let sample = self.sample_light(depth, &collision.receiver(), channels, points)?;
-        let phase = medium.phase.eval(along, sample.direction);
+        let phase = medium.phase.eval(position, along, sample.direction);
         let scale = match sample.density {
             Density::Delta(p) => 1.0 / p,
             Density::Continuous(p) => self.light_weight(p, phase) / p,
@@ -58,7 +58,7 @@ impl<'s, R: Rays, C: Channels> PathTracer<'_, 's, R, C> {
     ) -> Fate {
         let Collision { medium, position, along, depth } = *collision;
         let u = points.sample_2d(Dimension::vertex(depth, Decision::Phase));
-        let (direction, density) = medium.phase.sample(along, u);
+        let (direction, density) = medium.phase.sample(position, along, u);
         walk.arrival = if medium.samples_lights {
             Arrival::Scattered { receiver: collision.receiver(), density }
         } else {

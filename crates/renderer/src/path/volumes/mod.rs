@@ -1,5 +1,6 @@
 //! Paths through surfaces and participating media.
 
+mod bodies;
 mod collision;
 mod course;
 mod shadow;
@@ -15,8 +16,9 @@ use etendue_scene::geometry::{Ray, Rays};
 use etendue_scene::material::{PreparedMaterials, Varying};
 
 use super::transport::{Prepared, Spectral, Transport, Volumes};
-use super::{Fate, PathTracer, Walk};
+use super::{Arrival, Fate, PathTracer, Walk};
 use crate::statistics::RayCounts;
+use bodies::{Bodies, Crossing};
 use course::Course;
 use travel::Event;
 
@@ -88,6 +90,7 @@ impl<R: Rays, C: Channels> PathTracer<'_, '_, R, C> {
         let mut radiance = C::Color::black();
         let mut walk = Walk::from_camera(camera_ray, channels);
         let mut course = Course::in_medium(self.around_camera());
+        let mut bodies = Bodies::none(course.medium);
         let mut edges = 1;
         rays.camera += 1;
         // The address of a vertex, which is `edges` where nothing was passed.
@@ -110,9 +113,25 @@ impl<R: Rays, C: Channels> PathTracer<'_, '_, R, C> {
                     (shadowed, self.scatter_in_medium(&collision, edges, &mut walk, points))
                 }
                 Event::Surface(point) => {
+                    let direction = walk.ray.direction;
+                    let crossing =
+                        if self.nests { self.crossing(&bodies, &point, direction) } else { None };
+                    if let Some(hidden) = crossing.as_ref().filter(|crossing| crossing.is_hidden) {
+                        // Goes on as if there were no surface. Shadow rays end there.
+                        course.medium = bodies.cross(hidden);
+                        walk.ray = point.spawn(direction);
+                        walk.arrival = Arrival::Certain;
+                        rays.indirect += 1;
+                        continue;
+                    }
                     radiance += walk.throughput * self.emitted(&walk, &point);
                     let mut varying = Varying::default();
-                    let vertex = self.vertex(depth, &point, &walk, &mut varying);
+                    let vertex = match &crossing {
+                        Some(Crossing { exterior, .. }) => {
+                            self.vertex_within(depth, &point, &walk, *exterior, &mut varying)
+                        }
+                        None => self.vertex(depth, &point, &walk, &mut varying),
+                    };
                     let is_last = edges == longest;
                     // Of the last surface matters only what passes it.
                     if is_last && !vertex.bsdf.lobes().delta
@@ -127,7 +146,16 @@ impl<R: Rays, C: Channels> PathTracer<'_, '_, R, C> {
                         self.light_at_surface(&vertex, &course, points)
                     };
                     let fate = self.scatter::<T, S>(&vertex, edges, &mut walk, points);
-                    course.medium = self.beyond(&point, walk.ray.direction, course.medium);
+                    let onwards = walk.ray.direction;
+                    course.medium = match crossing {
+                        Some(crossing)
+                            if onwards.dot(point.normal) * direction.dot(point.normal) > 0.0 =>
+                        {
+                            bodies.cross(&crossing)
+                        }
+                        Some(_) => course.medium,
+                        None => self.beyond(&point, onwards, course.medium),
+                    };
                     (shadowed, fate)
                 }
             };

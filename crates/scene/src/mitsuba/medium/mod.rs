@@ -1,7 +1,7 @@
 //! Participating media.
 
 mod phase;
-mod volume;
+pub(super) mod volume;
 
 use alloc::boxed::Box;
 use alloc::format;

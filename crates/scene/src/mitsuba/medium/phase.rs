@@ -1,17 +1,27 @@
 //! Phase functions.
 
+use alloc::boxed::Box;
 use alloc::format;
+use alloc::vec::Vec;
 
 use etendue_sampling::warp::henyey_greenstein::HenyeyGreenstein;
 
 use super::super::reader::PluginReader;
+use super::super::value::Role;
 use super::super::{Context, Family};
+use super::volume;
 use crate::SceneError;
-use crate::medium::Phase;
-use crate::xml::NodeId;
+use crate::medium::{BlendPhase, Phase, TabulatedPhase};
+use crate::xml::{Kind, NodeId, parse_list};
 
 /// The phase functions there are.
-const PHASES: &Family<Phase> = &[("hg", henyey_greenstein), ("isotropic", isotropic)];
+const PHASES: &Family<Phase> = &[
+    ("blendphase", blend),
+    ("hg", henyey_greenstein),
+    ("isotropic", isotropic),
+    ("rayleigh", rayleigh),
+    ("tabphase", tabulated),
+];
 
 /// The phase function a node describes.
 pub(super) fn translate(context: &mut Context<'_>, id: NodeId) -> Result<Phase, SceneError> {
@@ -32,4 +42,39 @@ fn henyey_greenstein<'a>(
     HenyeyGreenstein::new(g as f32).map(Phase::HenyeyGreenstein).ok_or_else(|| {
         reader.error("g", format!("“g” must lie between -1 and 1, both excluded, but is {g}"))
     })
+}
+
+#[expect(clippy::unnecessary_wraps, reason = "the signature of its family")]
+fn rayleigh<'a>(_: &mut PluginReader<'a>, _: &mut Context<'a>) -> Result<Phase, SceneError> {
+    Ok(Phase::Rayleigh)
+}
+
+/// `values`, a list, at cosines from −1 to 1.
+fn tabulated<'a>(reader: &mut PluginReader<'a>, _: &mut Context<'a>) -> Result<Phase, SceneError> {
+    let Some(text) = reader.string("values")? else {
+        return Err(reader.error("values", "the table has no “values”"));
+    };
+    let values = parse_list(text)
+        .map_err(|item| reader.error("values", format!("“{item}” in “values” is no number")))?;
+    let values: Vec<f32> = values.into_iter().map(|value| value as f32).collect();
+    if values.len() < 2 {
+        return Err(reader.error("values", "“values” must be at least two"));
+    }
+    TabulatedPhase::new(&values)
+        .map(Phase::Tabulated)
+        .map_err(|error| reader.error("values", format!("“values”: {error}")))
+}
+
+/// Two phase functions in shares: `weight` (volume, 0.5) is that of the second.
+fn blend<'a>(
+    reader: &mut PluginReader<'a>,
+    context: &mut Context<'a>,
+) -> Result<Phase, SceneError> {
+    let weight = volume::or(reader, context, "weight", Role::Reflectance, 0.5)?;
+    let [first, second] = reader.children(Kind::Phase, context)[..] else {
+        let location = reader.node().location.clone();
+        return Err(SceneError::scene(location, "a blend needs two phase functions inside"));
+    };
+    let parts = [translate(context, first.node)?, translate(context, second.node)?];
+    Ok(Phase::Blend(Box::new(BlendPhase { weight, parts })))
 }

@@ -28,7 +28,7 @@ pub(super) fn is_volume(reader: &PluginReader<'_>, context: &Context<'_>, name: 
 ///
 /// # Errors
 /// A value that is neither a number nor a colour, a spectrum or a volume.
-pub(super) fn or<'a>(
+pub(in crate::mitsuba) fn or<'a>(
     reader: &mut PluginReader<'a>,
     context: &mut Context<'a>,
     name: &'static str,

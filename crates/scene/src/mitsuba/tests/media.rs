@@ -30,7 +30,7 @@ fn media_have_mitsubas_defaults_and_are_translated_once() {
         matches!(fog.extinction, Extinction::Homogeneous(sigma) if sigma.to_array() == [1.0; 3])
     );
     assert_eq!(fog.albedo_at(Vec3::ZERO).to_array(), [0.75; 3]);
-    assert!(fog.phase == Phase::Isotropic && fog.samples_lights && !fog.is_coloured());
+    assert!(fog.phase.is_isotropic() && fog.samples_lights && !fog.is_coloured());
     let Extinction::Heterogeneous(density) = &cloud.extinction else { panic!("{cloud:?}") };
     assert_eq!(density.at(Vec3::splat(0.5)).to_array(), [2.0, 4.0, 6.0]);
     assert!(matches!(cloud.phase, Phase::HenyeyGreenstein(lobe) if lobe.mean_cosine() == 0.8));
@@ -38,6 +38,26 @@ fn media_have_mitsubas_defaults_and_are_translated_once() {
     // Albedos are reflectances: at most 1, with a warning.
     assert_eq!(cloud.albedo_at(Vec3::ZERO).to_array(), [0.5, 1.0, 0.0]);
     assert!(loaded.warnings.iter().any(|w| w.to_string().contains("clamped to [0, 1]")));
+}
+
+#[test]
+fn phase_functions_are_those_of_mitsuba() {
+    let phase = |content: &str| {
+        let medium = format!("<medium type=\"homogeneous\" name=\"interior\">{content}</medium>");
+        let loaded = load(&format!("<shape type=\"sphere\">{medium}</shape>")).expect("a medium");
+        loaded.scene.media.get(MediumId(0)).expect("a medium").phase.clone()
+    };
+    let straight_on = |phase: &Phase| phase.eval(Vec3::ZERO, Vec3::Z, Vec3::Z);
+    assert!(matches!(phase("<phase type=\"rayleigh\"/>"), Phase::Rayleigh));
+    let parts = "<phase type=\"tabphase\" name=\"b\"><string name=\"values\" value=\"0, 1\"/></phase>\
+                 <phase type=\"isotropic\" name=\"a\"/>";
+    // In the order of the file; a table that rises evenly is twice as high at its end as on average.
+    for (weight, expected) in [("", 1.5), ("<float name=\"weight\" value=\"1\"/>", 1.0)] {
+        let blend = phase(&format!("<phase type=\"blendphase\">{weight}{parts}</phase>"));
+        let found = straight_on(&blend) * 4.0 * core::f32::consts::PI;
+        // A few roundings.
+        assert!((found - expected).abs() < 1e-6, "{weight}: {found}");
+    }
 }
 
 #[test]
@@ -55,6 +75,20 @@ fn wrong_media_are_refused_where_they_stand() {
     );
     let hg = "<phase type=\"hg\"><float name=\"g\" value=\"1\"/></phase>";
     refused(&inside(hg), 4, "“g” must lie between -1 and 1, both excluded, but is 1");
+    for (values, problem) in [
+        ("1", "“values” must be at least two"),
+        ("1, x", "“x” in “values” is no number"),
+        ("1, -1", "“values”: weight 1 is negative"),
+        ("0 0", "“values”: all weights are 0"),
+    ] {
+        let table = format!(
+            "<phase type=\"tabphase\"><string name=\"values\" value=\"{values}\"/></phase>"
+        );
+        refused(&inside(&table), 4, problem);
+    }
+    refused(&inside("<phase type=\"tabphase\"/>"), 4, "the table has no “values”");
+    let half = "<phase type=\"blendphase\"><phase type=\"rayleigh\"/></phase>";
+    refused(&inside(half), 4, "a blend needs two phase functions inside");
     refused(&inside("<phase type=\"isotropic\"/><phase type=\"hg\"/>"), 4, "more than one phase");
     refused(&inside("<float name=\"scale\" value=\"-1\"/>"), 4, "“scale” must be not negative");
     refused(&inside("<float name=\"sigma_s\" value=\"1\"/>"), 4, "did you mean “sigma_t”?");
