@@ -291,3 +291,17 @@ fn what_stands_still_has_the_same_bits_however_long_the_shutter_is_open() {
     assert_ne!(picture(&moving, &[]), expected);
     assert_eq!(picture(&moving, &["--without", "motion-blur"]), expected);
 }
+
+#[test]
+fn the_summary_of_a_scene_says_what_moves() {
+    let folder = Folder::new();
+    folder.write("moving.xml", MUCH);
+    folder.write("still.xml", NOTHING);
+    for (scene, says) in [
+        ("moving.xml", "motion     1 of the shapes and instances\n"),
+        ("still.xml", "motion     none\n"),
+    ] {
+        let outcome = folder.run(&["info", scene]);
+        assert!(outcome.stdout.contains(says), "{}", outcome.stdout);
+    }
+}
