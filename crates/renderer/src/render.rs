@@ -11,9 +11,9 @@ use etendue_scene::{Color, Scene};
 
 use crate::configuration::{Configuration, Configured};
 use crate::film::{FilterSampler, Image, PixelFilter, PixelSum};
-use crate::light_sampler::LightSampler;
+use crate::light_sampler::{LightSampler, PointLights};
 use crate::path::{PathTracer, Prepared, Transport};
-use crate::settings::RenderSettings;
+use crate::settings::{Airlight, RenderSettings};
 use crate::statistics::{RayCounts, SampleAddress, Statistics};
 use crate::tile::Tile;
 
@@ -27,6 +27,7 @@ pub struct Renderer<'a> {
     pub(crate) configuration: Configuration,
     pub(crate) materials: Prepared<'a>,
     lights: LightSampler,
+    point_lights: PointLights,
     pub(crate) filter: FilterSampler,
     pool: rayon::ThreadPool,
 }
@@ -80,9 +81,13 @@ impl<'a> Renderer<'a> {
             .map_err(ThreadError)?;
         let materials = Prepared::new(scene);
         let lights = LightSampler::new(scene);
+        let point_lights = match settings.airlight {
+            Airlight::Combined => PointLights::new(scene),
+            Airlight::Transmittance => PointLights::default(),
+        };
         let filter = FilterSampler::new(&scene.film);
         let configuration = Configuration::of(scene, &settings);
-        Ok(Self { scene, settings, configuration, materials, lights, filter, pool })
+        Ok(Self { scene, settings, configuration, materials, lights, point_lights, filter, pool })
     }
 
     /// What is rendered with.
@@ -179,7 +184,15 @@ impl<'a> Renderer<'a> {
     ) -> PathTracer<'_, 'a, R, T::Channels> {
         let RenderSettings { path, strategy, .. } = self.settings;
         let materials = T::materials(&self.materials);
-        PathTracer::new(rays, self.scene, materials, &self.lights, path, strategy)
+        PathTracer::new(
+            rays,
+            self.scene,
+            materials,
+            &self.lights,
+            &self.point_lights,
+            path,
+            strategy,
+        )
     }
 
     #[inline(always)]

@@ -20,7 +20,7 @@ use etendue_scene::light::Light;
 use etendue_scene::material::{PreparedBsdf, PreparedMaterials, Side, Varying};
 use etendue_scene::scene::PathSettings;
 
-use crate::light_sampler::{LightSampler, Receiver, Sides};
+use crate::light_sampler::{LightSampler, PointLights, Receiver, Sides};
 use crate::settings::Strategy;
 use crate::statistics::RayCounts;
 
@@ -48,6 +48,8 @@ pub(crate) struct PathTracer<'a, 's, R, C: Channels = Primaries> {
     scene: &'s Scene,
     materials: &'a PreparedMaterials<'s, C>,
     lights: &'a LightSampler,
+    /// Those to be looked for along whole ways through media.
+    point_lights: &'a PointLights,
     settings: PathSettings,
     strategy: Strategy,
     light_sampling: LightSampling,
@@ -176,6 +178,7 @@ impl<'a, 's, R: Rays, C: Channels> PathTracer<'a, 's, R, C> {
         scene: &'s Scene,
         materials: &'a PreparedMaterials<'s, C>,
         lights: &'a LightSampler,
+        point_lights: &'a PointLights,
         settings: PathSettings,
         strategy: Strategy,
     ) -> Self {
@@ -189,6 +192,7 @@ impl<'a, 's, R: Rays, C: Channels> PathTracer<'a, 's, R, C> {
             scene,
             materials,
             lights,
+            point_lights,
             settings,
             strategy,
             light_sampling,
