@@ -79,7 +79,7 @@ pub use film::{FilmSample, FilterSampler, Image, PixelFilter, PixelSum};
 pub use light_sampler::{LightChoice, LightSampler, Receiver, Sides};
 pub use render::{Progress, Renderer, Rendering};
 pub use renderer_error::RendererError;
-pub use settings::{RenderSettings, Strategy};
+pub use settings::{Airlight, RenderSettings, Strategy};
 pub use statistics::{NonFiniteSamples, RayCounts, SampleAddress, Statistics};
 
 /// The examples of the project's README, compiled and run.

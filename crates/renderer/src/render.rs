@@ -11,10 +11,10 @@ use etendue_scene::{Color, Scene};
 
 use crate::configuration::{Configuration, Configured};
 use crate::film::{FilterSampler, Image, PixelFilter, PixelSum};
-use crate::light_sampler::LightSampler;
+use crate::light_sampler::{LightSampler, PointLights};
 use crate::path::{PathTracer, Prepared, Transport};
 use crate::renderer_error::RendererError;
-use crate::settings::RenderSettings;
+use crate::settings::{Airlight, RenderSettings};
 use crate::statistics::{RayCounts, SampleAddress, Statistics};
 use crate::tile::Tile;
 
@@ -28,6 +28,7 @@ pub struct Renderer<'a> {
     pub(crate) configuration: Configuration,
     pub(crate) materials: Prepared<'a>,
     lights: LightSampler,
+    point_lights: PointLights,
     /// Whether samples have a time.
     has_motion: bool,
     pub(crate) filter: FilterSampler,
@@ -71,9 +72,23 @@ impl<'a> Renderer<'a> {
             .map_err(RendererError::Threads)?;
         let materials = Prepared::new(scene);
         let lights = LightSampler::new(scene);
+        let point_lights = match settings.airlight {
+            Airlight::Combined => PointLights::new(scene),
+            Airlight::Transmittance => PointLights::default(),
+        };
         let filter = FilterSampler::new(&scene.film);
         let has_motion = scene.has_motion();
-        Ok(Self { scene, settings, configuration, materials, lights, has_motion, filter, pool })
+        Ok(Self {
+            scene,
+            settings,
+            configuration,
+            materials,
+            lights,
+            point_lights,
+            has_motion,
+            filter,
+            pool,
+        })
     }
 
     /// What is rendered with.
@@ -170,7 +185,15 @@ impl<'a> Renderer<'a> {
     ) -> PathTracer<'_, 'a, R, T::Channels> {
         let RenderSettings { path, strategy, .. } = self.settings;
         let materials = T::materials(&self.materials);
-        PathTracer::new(rays, self.scene, materials, &self.lights, path, strategy)
+        PathTracer::new(
+            rays,
+            self.scene,
+            materials,
+            &self.lights,
+            &self.point_lights,
+            path,
+            strategy,
+        )
     }
 
     #[inline(always)]

@@ -18,6 +18,8 @@ pub struct RenderSettings {
     pub path: PathSettings,
     /// How light is found.
     pub strategy: Strategy,
+    /// Where light of single points is looked for in homogeneous media.
+    pub airlight: Airlight,
 }
 
 impl RenderSettings {
@@ -30,6 +32,7 @@ impl RenderSettings {
             sampler: scene.sampling.sampler,
             path: scene.path,
             strategy: Strategy::default(),
+            airlight: Airlight::default(),
         }
     }
 }
@@ -48,4 +51,16 @@ pub enum Strategy {
     BsdfOnly,
     /// Light sampling.
     LightOnly,
+}
+
+/// Where along a ray through a homogeneous medium light is looked for that comes from a single point: a point light, a spot
+/// light, a projector. Both have the same expectation.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Airlight {
+    /// At collisions, and near to the light, combined by the power heuristic: a shadow ray more per way through such a
+    /// medium, and no noise by lights in view.
+    #[default]
+    Combined,
+    /// At collisions.
+    Transmittance,
 }

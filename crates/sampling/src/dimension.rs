@@ -36,6 +36,8 @@ pub enum Decision {
     Tracking = 34,
     /// The same along a shadow ray.
     ShadowTracking = 35,
+    /// Which light is scattered towards the ray, and where along it.
+    Airlight = 36,
 }
 
 /// One random decision of a path: which vertex takes it, and what it is about.

@@ -1,8 +1,8 @@
 //! What is compared: ways to render one scene.
 
-use etendue_renderer::{RenderSettings, Strategy};
-use etendue_scene::Scene;
+use etendue_renderer::{Airlight, RenderSettings, Strategy};
 use etendue_scene::scene::{PathSettings, SamplerKind};
+use etendue_scene::{Effect, Scene};
 
 use super::forms::Form;
 
@@ -23,6 +23,8 @@ pub struct Variant {
     pub form: Option<Form>,
     /// Red, green and blue where the scene asks for wavelengths.
     pub primaries: bool,
+    /// Where light of single points is looked for in homogeneous media.
+    pub airlight: Airlight,
 }
 
 /// What sets a variant apart.
@@ -58,9 +60,15 @@ impl Variant {
                     max_depth: None,
                     form: None,
                     primaries: false,
+                    airlight: Airlight::Combined,
                 });
             }
         }
+        variants.extend(has_airlight(scene).then(|| Self {
+            name: "MIS, Sobol', points at collisions only".to_owned(),
+            airlight: Airlight::Transmittance,
+            ..variants[0].clone()
+        }));
         let base = Self { kind: Kind::Approximation, ..variants[0].clone() };
         variants.extend(scene.path.spectral.then(|| Self {
             name: "primaries for wavelengths".to_owned(),
@@ -96,8 +104,16 @@ impl Variant {
                 ..scene.path
             },
             strategy: self.strategy,
+            airlight: self.airlight,
         }
     }
+}
+
+/// Whether lights of single points shine into homogeneous media.
+fn has_airlight(scene: &Scene) -> bool {
+    let present = scene.effects();
+    present.iter().any(|presence| presence.effect == Effect::HomogeneousMedium)
+        && scene.lights.iter().any(|light| light.position().is_some())
 }
 
 /// What distinguishes pictures of one variant.

@@ -6,8 +6,9 @@ use etendue_math::glam::{DVec3, Vec3};
 use etendue_math::quadrature::Adaptive;
 use etendue_math::{Real, Spectrum};
 use etendue_sampling::warp::henyey_greenstein::HenyeyGreenstein;
+use etendue_scene::camera::{FieldOfView, FovAxis};
 use etendue_scene::geometry::{Shape, Transform, TriangleMesh};
-use etendue_scene::light::{Light, PointLight};
+use etendue_scene::light::{Light, PointLight, ProjectorLight, SpotLight};
 use etendue_scene::material::Material;
 use etendue_scene::medium::{
     BlendPhase, Density, Extinction, GridFilter, Medium, MediumCurves, Phase, TabulatedPhase,
@@ -17,7 +18,7 @@ use etendue_scene::texture::Wrap;
 use etendue_scene::{Color, Scene};
 
 use super::scenes::{Estimate, Sketch, estimate, rectangle, settings, sphere};
-use crate::{RenderSettings, Renderer, Strategy};
+use crate::{Airlight, RenderSettings, Renderer, Strategy};
 
 /// Three extinctions, the first of which is that of the channel that estimates are of.
 const COLOURED: [[f32; 3]; 3] = [[0.5, 1.0, 3.0], [3.0, 0.5, 1.0], [1.0, 0.0, 0.2]];
@@ -209,7 +210,81 @@ fn light_scattered_once_from_a_point_is_that_of_quadrature() {
         // Beyond 60 mean free paths nothing is left.
         let rule = Adaptive::<f64, 10>::new(40);
         let expected = rule.integrate([0.0, 120.0], 1e-12, &mut { scattered });
-        estimate(&scene, through_media(Some(2), Strategy::Mis), 200_000).assert_is(expected);
+        let [combined, transmittance] = both_airlights(&scene, Some(2), 200_000);
+        combined.assert_is(expected);
+        transmittance.assert_is(expected);
+        // What is drawn about the light does not know the transmittance, nor the phase function: 1.5 mean free paths away
+        // both are noise as well.
+        assert!(combined.error < transmittance.error, "{combined:?} {transmittance:?}");
+    }
+}
+
+/// Light of points looked for everywhere, and at collisions only.
+fn both_airlights(scene: &Scene, max_depth: Option<u32>, samples: u32) -> [Estimate; 2] {
+    [Airlight::Combined, Airlight::Transmittance].map(|airlight| {
+        let settings = RenderSettings { airlight, ..through_media(max_depth, Strategy::Mis) };
+        estimate(scene, settings, samples)
+    })
+}
+
+#[test]
+fn a_point_in_view_is_next_to_no_noise() {
+    let (eye, light) = (DVec3::new(0.0, -2.0, 0.0), DVec3::new(0.002, 0.0, 0.0));
+    let mut sketch = Sketch::default();
+    let medium = sketch.medium(homogeneous([0.1; 3], 0.7, Phase::Isotropic));
+    sketch.media.around_camera = Some(medium);
+    let (position, intensity) = (light.as_vec3(), Color::splat(1.0));
+    sketch.light(Light::Point(PointLight { position, intensity }));
+    let scene = sketch.point_seen(eye, DVec3::new(0.0, 1.0, 0.0));
+    let [combined, transmittance] = both_airlights(&scene, Some(2), 20_000);
+    let scattered = |s: f64| {
+        let d = light.distance(eye + DVec3::Y * s);
+        0.7 * 0.1 * 0.25 * f64::FRAC_1_PI * Real::exp(-0.1 * (s + d)) / (d * d)
+    };
+    let rule = Adaptive::<f64, 10>::new(60);
+    let pieces = [[0.0, 1.9], [1.9, 2.0], [2.0, 2.1], [2.1, 500.0]];
+    let expected = pieces.map(|piece| rule.integrate(piece, 1e-12, &mut { scattered }));
+    combined.assert_is(expected.iter().sum());
+    // Every distance contributes almost the same; of collisions one in a thousand is next to the light.
+    assert!(combined.error < 0.01 * transmittance.error, "{combined:?} {transmittance:?}");
+}
+
+#[test]
+fn light_of_points_is_the_same_wherever_it_is_looked_for() {
+    let view = Transform::look_at(DVec3::new(0.2, 0.1, 0.8), DVec3::new(0.0, 0.0, -1.0), DVec3::Y);
+    let view = view.expect("a direction");
+    let across = FieldOfView::Angle { degrees: 50.0, axis: FovAxis::X };
+    for (sigma, phase, hides_emitters) in [
+        ([0.7, 0.7, 0.7], Phase::Isotropic, false),
+        ([0.3, 1.0, 2.0], forwards(0.5), false),
+        ([1.0, 0.0, 0.2], Phase::Rayleigh, true),
+    ] {
+        let mut sketch = Sketch::default();
+        let (grey, black) = (sketch.grey(0.6), sketch.grey(0.0));
+        let (nothing, glass) = (sketch.material(Material::Null), sketch.glass());
+        let medium = sketch.medium(homogeneous(sigma, 0.8, phase));
+        sketch.filled(cube(1.0), nothing, medium);
+        sketch.filled(sphere(DVec3::new(0.5, 0.2, -0.4), 0.3), glass, medium);
+        sketch.shape(rectangle(DVec3::new(0.0, 0.0, -1.2), [3.0, 3.0], DVec3::Z), grey);
+        // In the camera's view where it is looked through.
+        let lamp = DVec3::new(if hides_emitters { 0.0 } else { 0.9 }, -1.5, 0.2);
+        sketch.emitter(rectangle(lamp, [0.2, 0.2], DVec3::Y), black, 4.0);
+        let (two, picture) = (Color::splat(2.0), sketch.textures.constant(Color::splat(0.5)));
+        let (position, intensity) = (Vec3::new(-0.3, 0.2, 0.1), Color::splat(0.5));
+        sketch.light(Light::Point(PointLight { position, intensity }));
+        let spot = SpotLight::new(view, two, None, 30.0, 20.0).expect("a spot light");
+        sketch.light(Light::Spot(spot));
+        let projector = ProjectorLight::new(view, picture, 1.0, across, [1, 1]);
+        sketch.light(Light::Projector(projector.expect("a projector")));
+        let scene = sketch.point_seen(DVec3::new(0.0, -4.0, 0.4), DVec3::new(0.0, 0.0, 0.1));
+        let [combined, transmittance] =
+            [Airlight::Combined, Airlight::Transmittance].map(|airlight| {
+                let mut settings =
+                    RenderSettings { airlight, ..through_media(Some(6), Strategy::Mis) };
+                settings.path.hide_emitters = hides_emitters;
+                estimate(&scene, settings, 400_000)
+            });
+        assert_equal(combined, transmittance);
     }
 }
 

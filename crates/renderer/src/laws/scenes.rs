@@ -16,7 +16,7 @@ use etendue_scene::scene::{PathSettings, SamplerKind, SamplingSettings, ScenePar
 use etendue_scene::texture::Textures;
 use etendue_scene::{Color, Scene};
 
-use crate::{RenderSettings, Renderer, Strategy};
+use crate::{Airlight, RenderSettings, Renderer, Strategy};
 
 /// A scene under construction.
 #[derive(Default)]
@@ -200,6 +200,7 @@ pub(super) fn settings(max_depth: Option<u32>, strategy: Strategy) -> RenderSett
         sampler: SamplerKind::Independent,
         path: PathSettings { max_depth, ..PathSettings::default() },
         strategy,
+        airlight: Airlight::default(),
     }
 }
 

@@ -5,6 +5,7 @@ mod cluster;
 mod cone;
 mod node;
 mod pair;
+mod points;
 mod receiver;
 mod tree;
 
@@ -14,6 +15,7 @@ use etendue_scene::light::{EmissionSides, LightBounds, LightId};
 
 use cluster::{Cluster, Faces};
 use cone::Cone;
+pub(crate) use points::{PointLight, PointLights};
 pub use receiver::{Receiver, Sides};
 use tree::{Chosen, LightTree};
 

@@ -10,7 +10,7 @@ use etendue_scene::geometry::{Rays, SurfacePoint};
 use etendue_scene::light::LightSample;
 
 use super::{LightSampling, PathTracer, Several, Vertex};
-use crate::light_sampler::Receiver;
+use crate::light_sampler::{LightChoice, Receiver};
 use crate::settings::Strategy;
 use crate::statistics::RayCounts;
 
@@ -40,7 +40,8 @@ impl<R: Rays, C: Channels> PathTracer<'_, '_, R, C> {
         if self.light_sampling == LightSampling::Useless || !vertex.bsdf.lobes().continuous {
             return None;
         }
-        let sample = self.sample_light(vertex.depth, &vertex.receiver, vertex.channels, points)?;
+        let (_, sample) =
+            self.sample_light(vertex.depth, &vertex.receiver, vertex.channels, points)?;
         let wi = vertex.point.shading.to_local(sample.direction);
         if self.is_inconsistent(vertex, sample.direction, wi) {
             return None;
@@ -54,7 +55,7 @@ impl<R: Rays, C: Channels> PathTracer<'_, '_, R, C> {
         (!light.is_black()).then_some((light, sample))
     }
 
-    /// A light sample for the vertex with address `depth`; its density accounts for the choice of the
+    /// A light sample for the vertex with address `depth`, and the light that it is of; its density accounts for the choice of the
     /// light.
     #[inline(always)]
     pub(super) fn sample_light<S: Sampler>(
@@ -63,7 +64,7 @@ impl<R: Rays, C: Channels> PathTracer<'_, '_, R, C> {
         receiver: &Receiver,
         channels: C,
         points: &S,
-    ) -> Option<LightSample<C::Color>> {
+    ) -> Option<(LightChoice, LightSample<C::Color>)> {
         let dimension = |decision| Dimension::vertex(depth, decision);
         let u = if self.lights.count() > 1 {
             points.sample_1d(dimension(Decision::LightChoice))
@@ -85,16 +86,13 @@ impl<R: Rays, C: Channels> PathTracer<'_, '_, R, C> {
             {
                 let (radiance, density) =
                     self.over_all_infinite_lights(Receiver { ..*receiver }, sample.direction);
-                return Some(LightSample {
-                    radiance: channels.light(radiance),
-                    density: Density::Continuous(density),
-                    ..sample
-                });
+                let (radiance, density) = (channels.light(radiance), Density::Continuous(density));
+                return Some((choice, LightSample { radiance, density, ..sample }));
             }
             Density::Continuous(p) => Density::Continuous(p * choice.probability),
             Density::Delta(p) => Density::Delta(p * choice.probability),
         };
-        Some(sample)
+        Some((choice, sample))
     }
 
     /// Radiance and density of a direction as if drawn from the mixture of all infinite lights: what

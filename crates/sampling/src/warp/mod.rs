@@ -13,6 +13,7 @@
 //! | [`henyey_greenstein`] | all directions, around ±z | solid angle | (1 − g²)/(4π q^³ᐟ²) |
 //! | [`rayleigh`] | all directions, around ±z | solid angle | 3(1 + z²)/16π |
 //! | [`linear`] | `[0, 1)`, from one uniform | length | 2(a(1 − x) + bx)/(a + b) |
+//! | [`equiangular`] | distances along a ray, from one uniform | length | D/(Δ(D² + (a + s)²)) |
 //! | [`seen_sphere`] | directions that hit a sphere | solid angle | 1/Ω outside, from area inside |
 //! | [`triangle`] | barycentric coordinates | area | 1/A |
 //! | [`spherical_triangle`] | directions that hit a triangle | solid angle | 1/Ω |
@@ -26,6 +27,7 @@ pub mod area;
 pub mod cone;
 pub mod cosine_hemisphere;
 pub mod disk;
+pub mod equiangular;
 pub mod henyey_greenstein;
 pub mod linear;
 pub mod rayleigh;

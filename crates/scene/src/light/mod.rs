@@ -56,6 +56,16 @@ impl Light {
         matches!(self, Self::Point(_) | Self::Spot(_) | Self::Projector(_) | Self::Directional(_))
     }
 
+    /// Where it is, of a light that is a single point.
+    pub fn position(&self) -> Option<Vec3> {
+        match self {
+            Self::Point(light) => Some(light.position),
+            Self::Spot(light) => Some(light.position()),
+            Self::Projector(light) => Some(light.position()),
+            Self::Area(_) | Self::Directional(_) | Self::Constant(_) | Self::Environment(_) => None,
+        }
+    }
+
     /// The texture of its radiance, intensity or irradiance; the map of an environment belongs to the light itself.
     pub fn texture(&self) -> Option<TextureId> {
         match self {

@@ -7,23 +7,26 @@ use etendue_sampling::{Decision, Dimension, Sampler};
 use etendue_scene::color::Channels;
 use etendue_scene::geometry::{Ray, Rays};
 
+use super::airlight::Beam;
 use super::shadow::Shadowed;
 use super::travel::Collision;
 use crate::light_sampler::{Receiver, Sides};
 use crate::path::{Arrival, Fate, LightSampling, PathTracer, View, Walk};
 
-impl Collision<'_> {
-    fn receiver(&self) -> Receiver {
-        Receiver { position: self.position, normal: Vec3::ZERO, sides: Sides::Around }
-    }
+/// A point that scatters from everywhere alike.
+pub(super) fn around(position: Vec3) -> Receiver {
+    Receiver { position, normal: Vec3::ZERO, sides: Sides::Around }
 }
 
 impl<'s, R: Rays, C: Channels> PathTracer<'_, 's, R, C> {
     /// By one light sample, the light scattered towards the camera if nothing is in its way.
+    ///
+    /// * `beam`: on which the collision lies, where light on it is looked for as well.
     #[inline(always)]
     pub(super) fn light_in_medium<S: Sampler>(
         &self,
         collision: &Collision<'s>,
+        beam: Option<&Beam<'s, C>>,
         channels: C,
         points: &S,
     ) -> Option<Shadowed<'s, C>> {
@@ -31,10 +34,13 @@ impl<'s, R: Rays, C: Channels> PathTracer<'_, 's, R, C> {
         if self.light_sampling == LightSampling::Useless || !medium.samples_lights {
             return None;
         }
-        let sample = self.sample_light(depth, &collision.receiver(), channels, points)?;
+        let (choice, sample) = self.sample_light(depth, &around(position), channels, points)?;
         let phase = medium.phase.eval(position, along, sample.direction);
         let scale = match sample.density {
-            Density::Delta(p) => 1.0 / p,
+            Density::Delta(p) => {
+                let weight = |beam| self.collision_weight(beam, position, choice.light, p);
+                beam.map_or(1.0, weight) / p
+            }
             Density::Continuous(p) => self.light_weight(p, phase) / p,
         };
         let light = sample.radiance.scale(phase * scale);
@@ -60,7 +66,7 @@ impl<'s, R: Rays, C: Channels> PathTracer<'_, 's, R, C> {
         let u = points.sample_2d(Dimension::vertex(depth, Decision::Phase));
         let (direction, density) = medium.phase.sample(position, along, u);
         walk.arrival = if medium.samples_lights {
-            Arrival::Scattered { receiver: collision.receiver(), density }
+            Arrival::Scattered { receiver: around(position), density }
         } else {
             Arrival::Certain
         };

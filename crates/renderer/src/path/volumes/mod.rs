@@ -1,5 +1,6 @@
 //! Paths through surfaces and participating media.
 
+mod airlight;
 mod bodies;
 mod collision;
 mod course;
@@ -98,69 +99,80 @@ impl<R: Rays, C: Channels> PathTracer<'_, '_, R, C> {
             if edges > longest {
                 break;
             }
+            let mut beam = None;
+            let event = self.travel(&mut walk, &mut course, &mut beam, depth, points, rays);
+            let on_beam = beam
+                .as_ref()
+                .filter(|_| edges < longest)
+                .and_then(|beam| self.light_on_beam(beam, depth, channels, points));
             let throughput;
-            let (shadowed, fate) = match self.travel(&mut walk, &mut course, depth, points, rays) {
+            let (shadowed, fate) = match event {
                 Event::Escape => {
                     radiance += walk.throughput * self.escaped(&walk);
-                    break;
+                    throughput = walk.throughput;
+                    (None, Fate::Ends)
                 }
                 Event::Collision(collision) => {
+                    throughput = walk.throughput;
                     if edges == longest {
                         break;
                     }
-                    throughput = walk.throughput;
-                    let shadowed = self.light_in_medium(&collision, channels, points);
+                    let shadowed =
+                        self.light_in_medium(&collision, beam.as_ref(), channels, points);
                     (shadowed, self.scatter_in_medium(&collision, edges, &mut walk, points))
                 }
                 Event::Surface(point) => {
                     let direction = walk.ray.direction;
                     let crossing =
                         if self.nests { self.crossing(&bodies, &point, direction) } else { None };
+                    throughput = walk.throughput;
                     if let Some(hidden) = crossing.as_ref().filter(|crossing| crossing.is_hidden) {
                         // Goes on as if there were no surface. Shadow rays end there.
                         course.medium = bodies.cross(hidden);
                         walk.ray = point.spawn(direction);
                         walk.arrival = Arrival::Certain;
-                        rays.indirect += 1;
-                        continue;
-                    }
-                    radiance += walk.throughput * self.emitted(&walk, &point);
-                    let mut varying = Varying::default();
-                    let vertex = match &crossing {
-                        Some(Crossing { exterior, .. }) => {
-                            self.vertex_within(depth, &point, &walk, *exterior, &mut varying)
-                        }
-                        None => self.vertex(depth, &point, &walk, &mut varying),
-                    };
-                    let is_last = edges == longest;
-                    // Of the last surface matters only what passes it.
-                    if is_last && !vertex.bsdf.lobes().delta
-                        || self.is_inconsistent(&vertex, -walk.ray.direction, vertex.wo)
-                    {
-                        break;
-                    }
-                    throughput = walk.throughput;
-                    let shadowed = if is_last {
-                        None
+                        (None, Fate::Passes)
                     } else {
-                        self.light_at_surface(&vertex, &course, points)
-                    };
-                    let fate = self.scatter::<T, S>(&vertex, edges, &mut walk, points);
-                    let onwards = walk.ray.direction;
-                    course.medium = match crossing {
-                        Some(crossing)
-                            if onwards.dot(point.normal) * direction.dot(point.normal) > 0.0 =>
+                        radiance += walk.throughput * self.emitted(&walk, &point);
+                        let mut varying = Varying::default();
+                        let vertex = match &crossing {
+                            Some(Crossing { exterior, .. }) => {
+                                self.vertex_within(depth, &point, &walk, *exterior, &mut varying)
+                            }
+                            None => self.vertex(depth, &point, &walk, &mut varying),
+                        };
+                        let is_last = edges == longest;
+                        // Of the last surface matters only what passes it.
+                        if is_last && !vertex.bsdf.lobes().delta
+                            || self.is_inconsistent(&vertex, -direction, vertex.wo)
                         {
-                            bodies.cross(&crossing)
+                            (None, Fate::Ends)
+                        } else {
+                            let shadowed = if is_last {
+                                None
+                            } else {
+                                self.light_at_surface(&vertex, &course, points)
+                            };
+                            let fate = self.scatter::<T, S>(&vertex, edges, &mut walk, points);
+                            let onwards = walk.ray.direction;
+                            course.medium = match crossing {
+                                Some(crossing)
+                                    if onwards.dot(point.normal) * direction.dot(point.normal)
+                                        > 0.0 =>
+                                {
+                                    bodies.cross(&crossing)
+                                }
+                                Some(_) => course.medium,
+                                None => self.beyond(&point, onwards, course.medium),
+                            };
+                            (shadowed, fate)
                         }
-                        Some(_) => course.medium,
-                        None => self.beyond(&point, onwards, course.medium),
-                    };
-                    (shadowed, fate)
+                    }
                 }
             };
             // In one place for all vertices, so that what traces rays is compiled once.
-            if let Some(shadowed) = shadowed {
+            let shadowed = shadowed.map(|shadowed| (throughput, shadowed));
+            for (throughput, shadowed) in [on_beam, shadowed].into_iter().flatten() {
                 let share = self.transmittance(&shadowed, depth, points, rays);
                 radiance += throughput * (shadowed.light * share);
             }

@@ -7,6 +7,7 @@ use etendue_scene::color::Channels;
 use etendue_scene::geometry::{Ray, Rays, SurfacePoint};
 use etendue_scene::medium::{Density, Extinction, Medium};
 
+use super::airlight::Beam;
 use super::course::Course;
 use super::tentative::{optical_thickness, tentative};
 use crate::path::{PathTracer, Walk};
@@ -35,6 +36,8 @@ pub(super) struct Collision<'s> {
 impl<'s, R: Rays, C: Channels> PathTracer<'_, 's, R, C> {
     /// Goes to the next vertex, whose address is `depth`, and weighs how it got there.
     ///
+    /// `beam` becomes what is passed on the way, if there is to be looked for light of single points on it.
+    ///
     /// Rays are traced in one place: this is compiled into the loop over vertices, unlike what is done
     /// beside.
     #[inline(always)]
@@ -42,6 +45,7 @@ impl<'s, R: Rays, C: Channels> PathTracer<'_, 's, R, C> {
         &self,
         walk: &mut Walk<C>,
         course: &mut Course<'s>,
+        beam: &mut Option<Beam<'s, C>>,
         depth: u16,
         points: &S,
         rays: &mut RayCounts,
@@ -64,11 +68,17 @@ impl<'s, R: Rays, C: Channels> PathTracer<'_, 's, R, C> {
                 Some((_, Extinction::Heterogeneous(_))) | None => None,
             };
             let t = flight.as_ref().map_or(f32::INFINITY, |flight| flight.t);
-            let hit = self.rays.intersect(&Ray { t_max: t.min(walk.ray.t_max), ..walk.ray });
+            let lit =
+                course.medium.filter(|medium| flight.is_some() && self.has_beams(medium, walk));
+            let reach = if lit.is_some() { f32::INFINITY } else { t };
+            let hit = self.rays.intersect(&Ray { t_max: reach.min(walk.ray.t_max), ..walk.ray });
             let end = hit.map_or(walk.ray.t_max, |hit| hit.t);
+            if let (Some(medium), Some(flight)) = (lit, &flight) {
+                *beam = Beam::new(medium, flight.sigma, walk, end);
+            }
             let collision = match (flight, extinction) {
                 (Some(flight), _) => {
-                    let collides = hit.is_none() && t < walk.ray.t_max;
+                    let collides = t < end;
                     let factor = flight.factor(collides, end, walk);
                     walk.throughput = walk.throughput * factor;
                     thickness = Some(flight.left(end));
