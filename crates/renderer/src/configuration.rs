@@ -15,7 +15,8 @@ use crate::settings::RenderSettings;
 pub enum Configuration {
     /// Light between surfaces, in empty space.
     Surfaces,
-    /// Participating media as well, and surfaces that do not count on the way of light through them.
+    /// Participating media as well, surfaces that do not count on the way of light through them, and transparent bodies that
+    /// overlap.
     Volumes,
     /// All of that, a few wavelengths at a time instead of three primaries.
     Spectral,

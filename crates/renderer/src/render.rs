@@ -70,7 +70,7 @@ impl<'a> Renderer<'a> {
             .thread_name(|i| format!("render {i}"))
             .build()
             .map_err(RendererError::Threads)?;
-        let materials = Prepared::new(scene);
+        let materials = Prepared::new(scene, settings.samples_per_pixel);
         let lights = LightSampler::new(scene);
         let point_lights = match settings.airlight {
             Airlight::Combined => PointLights::new(scene),

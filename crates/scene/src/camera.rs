@@ -1,12 +1,14 @@
 //! Cameras.
 
 mod field_of_view;
+mod sight;
 
 use etendue_math::Vector3;
 use etendue_math::glam::{Vec2, Vec3};
 use etendue_sampling::warp::disk;
 
 pub use field_of_view::{FieldOfView, FovAxis};
+pub use sight::Sight;
 
 use crate::geometry::{Motion, Ray, Transform};
 

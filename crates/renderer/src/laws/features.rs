@@ -5,6 +5,7 @@ use core::sync::atomic::AtomicBool;
 use etendue_brdf::Bsdf;
 use etendue_math::glam::{DVec3, Vec3};
 use etendue_math::{Real, Spectrum};
+use etendue_scene::camera::Sight;
 use etendue_scene::color::Primaries;
 use etendue_scene::geometry::Ray;
 use etendue_scene::material::{PreparedMaterials, Side, Varying};
@@ -66,7 +67,8 @@ fn an_albedo_without_a_closed_form_is_estimated() {
     sketch.shape(rectangle(DVec3::ZERO, [4.0, 4.0], DVec3::Z), metal);
     sketch.sky(1.0);
     let scene = sketch.point_seen(DVec3::new(0.0, -1.0, 1.0), DVec3::ZERO);
-    let materials = PreparedMaterials::new(&scene.materials, &scene.textures, &scene.geometry);
+    let materials =
+        PreparedMaterials::new(&scene.materials, &scene.textures, &scene.geometry, Sight::SHARP);
     let ray = Ray::new(Vec3::Z, -Vec3::Z);
     let hit = scene.geometry.intersect(&ray).expect("the metal is below");
     let point = scene.geometry.surface_point(&ray, &hit);

@@ -1,6 +1,7 @@
 //! What paths go through, and what they carry.
 
 use etendue_sampling::Sampler;
+use etendue_scene::camera::Sight;
 use etendue_scene::color::{Channels, Primaries, Wavelengths};
 use etendue_scene::geometry::{Ray, Rays};
 use etendue_scene::material::PreparedMaterials;
@@ -35,7 +36,7 @@ pub(crate) trait Transport {
 /// Empty space between surfaces.
 pub(crate) enum Surfaces {}
 
-/// Participating media between surfaces, and surfaces that bound them.
+/// Participating media between surfaces, surfaces that bound them, and transparent bodies that overlap.
 pub(crate) enum Volumes {}
 
 /// The same, followed by a few wavelengths at a time.
@@ -48,11 +49,12 @@ pub(crate) struct Prepared<'a> {
 }
 
 impl<'a> Prepared<'a> {
-    pub(crate) fn new(scene: &'a Scene) -> Self {
-        let Scene { materials, textures, geometry, .. } = scene;
+    pub(crate) fn new(scene: &'a Scene, samples_per_pixel: u32) -> Self {
+        let Scene { materials, textures, geometry, camera, film, .. } = scene;
+        let sight = Sight::new(camera, film, samples_per_pixel);
         Self {
-            rgb: PreparedMaterials::new(materials, textures, geometry),
-            spectral: PreparedMaterials::new(materials, textures, geometry),
+            rgb: PreparedMaterials::new(materials, textures, geometry, sight),
+            spectral: PreparedMaterials::new(materials, textures, geometry, sight),
         }
     }
 }

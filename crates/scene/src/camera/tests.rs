@@ -1,4 +1,6 @@
 use super::*;
+use crate::film::Film;
+use etendue_math::Real;
 use etendue_math::glam::DVec3;
 
 const VIEW: FieldOfView = FieldOfView::Angle { degrees: 40.0, axis: FovAxis::X };
@@ -146,4 +148,26 @@ fn depth_is_along_the_axis_whatever_the_scale() {
         assert!((camera.depth(aside.at(10.0)) - 0.5 - 10.0 * cosine).abs() < 1e-5);
         assert!(camera.depth(axis.at(-1.0)) < 0.0);
     }
+}
+
+#[test]
+fn sight_widens_through_a_pinhole_and_stays_a_pixel_in_parallel_projection() {
+    let film = Film::new(FILM);
+    let ray = |camera: &Camera| camera.ray([20.0, 15.0], [0.5; 2]);
+    let pinhole = perspective(VIEW, [0.0; 2]);
+    let sight = Sight::new(&pinhole, &film, 4);
+    // Half a pixel of 2 tan 20°/40 per unit of length, which begins half a unit before the near clipping plane.
+    let pixel = 2.0 * Real::tan(f64::to_radians(20.0)) / 40.0;
+    for distance in [0.5_f32, 10.0, 1000.0] {
+        let found = f64::from(sight.width(ray(&pinhole).at(distance)));
+        let expected = 0.5 * pixel * (f64::from(distance) + 0.5);
+        // The chord of the next pixel's direction, which is not as long as the tangent.
+        assert!((found / expected - 1.0).abs() < 1e-3, "{distance}: {found} {expected}");
+    }
+    let parallel = camera(Projection::Orthographic);
+    let sight = Sight::new(&parallel, &film, 1_000_000);
+    // An eighth of a fortieth of two units, at any distance.
+    let found = sight.width(ray(&parallel).at(50.0));
+    assert!((found - 2.0 / 40.0 / 8.0).abs() < 1e-6, "{found}");
+    assert_eq!(Sight::SHARP.width(Vec3::splat(7.0)), 0.0);
 }

@@ -57,6 +57,8 @@ pub enum Effect {
     PassThrough,
     /// Images on surfaces and in lights.
     BitmapTexture,
+    /// Images that are seen as coarsely as samples are far apart.
+    TextureFiltering,
     /// Two textures in squares.
     CheckerboardTexture,
     /// Colours that meshes bring along.
@@ -87,7 +89,7 @@ pub enum Effect {
 
 impl Effect {
     /// The whole vocabulary.
-    pub const ALL: [Self; 35] = [
+    pub const ALL: [Self; 36] = [
         Self::IndirectLight,
         Self::AreaLight,
         Self::PointLight,
@@ -110,6 +112,7 @@ impl Effect {
         Self::BumpMap,
         Self::PassThrough,
         Self::BitmapTexture,
+        Self::TextureFiltering,
         Self::CheckerboardTexture,
         Self::MeshAttribute,
         Self::VolumeTexture,
@@ -150,6 +153,7 @@ impl Effect {
             Self::BumpMap => "bump-map",
             Self::PassThrough => "pass-through",
             Self::BitmapTexture => "bitmap-texture",
+            Self::TextureFiltering => "texture-filtering",
             Self::CheckerboardTexture => "checkerboard-texture",
             Self::MeshAttribute => "mesh-attribute",
             Self::VolumeTexture => "volume-texture",
@@ -218,6 +222,9 @@ impl Effect {
             }
             Self::PassThrough => "a vertex of the path",
             Self::BitmapTexture => "four texels and a model of its own per surface met",
+            Self::TextureFiltering => {
+                "a third more memory for images; a copy of the point, derivatives of its position, a logarithm and eight texels"
+            }
             Self::CheckerboardTexture => "a square found and a model of its own per surface met",
             Self::MeshAttribute => {
                 "a copy of the point, a name found, a value of each corner and a model of its own per surface met"

@@ -9,7 +9,7 @@ use crate::Scene;
 use crate::light::{Light, LightId};
 use crate::material::{Material, MaterialId};
 use crate::medium::MediumId;
-use crate::texture::TextureId;
+use crate::texture::{Texture, TextureId};
 
 /// A part of a scene that calls for an effect.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -95,8 +95,11 @@ impl Scene {
         let textures = of_materials.flat_map(Material::textures);
         let textures = textures.chain(self.lights.iter().filter_map(Light::texture));
         for id in self.textures.with_parts(textures) {
-            let effect = self.textures.get(id).and_then(of_texture);
-            causes.extend(effect.map(|effect| (effect, Element::Texture(id))));
+            let Some(texture) = self.textures.get(id) else { continue };
+            causes.extend(of_texture(texture).map(|effect| (effect, Element::Texture(id))));
+            if matches!(texture, Texture::Bitmap(bitmap) if bitmap.is_filtered()) {
+                causes.push((Effect::TextureFiltering, Element::Texture(id)));
+            }
         }
         for id in self.media_in_use() {
             let Some(medium) = self.media.get(id).filter(|_| path.volumes) else { continue };

@@ -38,6 +38,9 @@ impl Scene {
         self.path.strict_normals &= !out(Effect::StrictNormals);
         self.retain_lights(|light| !out(of_light(light)));
         self.textures.average(|texture| of_texture(texture).is_some_and(out));
+        if out(Effect::TextureFiltering) {
+            self.textures.lose_filters();
+        }
         let black = self.textures.constant(Color::black());
         let textures = &self.textures;
         self.materials

@@ -10,13 +10,29 @@ use crate::Color;
 pub struct Located<'a> {
     geometry: &'a Geometry,
     point: SurfacePoint,
+    width: f32,
 }
 
 impl<'a> Located<'a> {
     /// A point that [`Geometry::surface_point`] of this geometry has given.
     #[inline]
     pub fn new(geometry: &'a Geometry, point: SurfacePoint) -> Self {
-        Self { geometry, point }
+        Self { geometry, point, width: 0.0 }
+    }
+
+    /// The same as part of what a sample stands for that is `width` wide, in units of the world.
+    #[inline]
+    #[must_use]
+    pub fn as_wide_as(self, width: f32) -> Self {
+        Self { width, ..self }
+    }
+
+    /// How far texture coordinates go in that width, along u and along v; 0 where they do not vary.
+    pub fn extent(&self) -> [f32; 2] {
+        self.partials().map(|partial| {
+            let extent = self.width / Vec3::length(partial);
+            if extent.is_finite() { extent } else { 0.0 }
+        })
     }
 
     /// The point.

@@ -3,6 +3,7 @@
 use alloc::vec::Vec;
 
 use super::{Material, MaterialId, Materials, PreparedBsdf, Side};
+use crate::camera::Sight;
 use crate::color::{Channels, Primaries};
 use crate::geometry::{Geometry, Located, SurfacePoint};
 use crate::texture::{Texture, Textures};
@@ -16,6 +17,7 @@ pub struct PreparedMaterials<'a, C: Channels = Primaries> {
     materials: &'a Materials,
     textures: &'a Textures,
     geometry: &'a Geometry,
+    sight: Sight,
     readiness: Vec<Readiness<'a, C>>,
 }
 
@@ -45,8 +47,14 @@ impl<C: Channels> Default for Varying<'_, C> {
 }
 
 impl<'a, C: Channels> PreparedMaterials<'a, C> {
-    /// Prepares what does not depend on the place; surfaces will be those of `geometry`.
-    pub fn new(materials: &'a Materials, textures: &'a Textures, geometry: &'a Geometry) -> Self {
+    /// Prepares what does not depend on the place; surfaces will be those of `geometry`, and as much of them be looked at as `sight`
+    /// says.
+    pub fn new(
+        materials: &'a Materials,
+        textures: &'a Textures,
+        geometry: &'a Geometry,
+        sight: Sight,
+    ) -> Self {
         let anywhere = [0.0; 2].into();
         let prepare = |id, channels| {
             [Side::Front, Side::Back]
@@ -67,7 +75,7 @@ impl<'a, C: Channels> PreparedMaterials<'a, C> {
                 }
             })
             .collect();
-        Self { materials, textures, geometry, readiness }
+        Self { materials, textures, geometry, sight, readiness }
     }
 
     /// The reflection model of a material at a point, looked at from one side.
@@ -109,7 +117,7 @@ impl<'a, C: Channels> PreparedMaterials<'a, C> {
         exterior: f32,
         varying: &'b mut Varying<'b, C>,
     ) -> &'b PreparedBsdf<'b, C> {
-        let surface = &*varying.surface.insert(Located::new(self.geometry, point));
+        let surface = &*varying.surface.insert(self.locate(point));
         let Self { materials, textures, .. } = *self;
         let at = surface.into();
         varying.bsdf.insert(materials.prepare_within(
@@ -122,6 +130,10 @@ impl<'a, C: Channels> PreparedMaterials<'a, C> {
         ))
     }
 
+    fn locate(&self, point: SurfacePoint) -> Located<'a> {
+        Located::new(self.geometry, point).as_wide_as(self.sight.width(point.position))
+    }
+
     /// The same for a material that depends on more than texture coordinates; out of line.
     #[inline(never)]
     fn at_surface<'b>(
@@ -132,7 +144,7 @@ impl<'a, C: Channels> PreparedMaterials<'a, C> {
         channels: C,
         varying: &'b mut Varying<'b, C>,
     ) -> &'b PreparedBsdf<'b, C> {
-        let surface = &*varying.surface.insert(Located::new(self.geometry, point));
+        let surface = &*varying.surface.insert(self.locate(point));
         varying.bsdf.insert(self.materials.prepare(
             id,
             self.textures,
@@ -165,9 +177,14 @@ fn is_uniform(material: &Material, materials: &Materials, textures: &Textures) -
 mod tests {
     use super::*;
     use crate::Color;
+    use crate::camera::{Camera, Projection};
+    use crate::film::Film;
     use crate::geometry::{GeometryBuilder, Ray, Rectangle, Shape, Transform};
     use crate::medium::Volume;
-    use crate::texture::{AttributeTexture, Checkerboard, UvTransform, VolumeTexture};
+    use crate::texture::{
+        AttributeTexture, Bitmap, BitmapImage, Checkerboard, Filter, UvTransform, VolumeTexture,
+        Wrap,
+    };
     use etendue_brdf::Bsdf;
     use etendue_math::Spectrum;
     use etendue_math::glam::Vec3;
@@ -204,7 +221,7 @@ mod tests {
             MaterialId(99),
         ];
         let (geometry, point) = square();
-        let prepared = PreparedMaterials::new(&materials, &textures, &geometry);
+        let prepared = PreparedMaterials::new(&materials, &textures, &geometry, Sight::SHARP);
         let wi = Vec3::new(0.6, 0.0, 0.8);
         for id in ids {
             for (side, z) in [(Side::Front, 1.0), (Side::Back, -1.0)] {
@@ -238,10 +255,42 @@ mod tests {
         for reflectance in [white, board, mixed, volume] {
             materials.add(Material::Diffuse { reflectance }).expect("it refers to none");
         }
-        let prepared = PreparedMaterials::<Primaries>::new(&materials, &textures, &geometry);
+        let prepared =
+            PreparedMaterials::<Primaries>::new(&materials, &textures, &geometry, Sight::SHARP);
         assert!(matches!(
             prepared.readiness[..],
             [Readiness::Uniform(_), Readiness::Coordinates, Readiness::Surface, Readiness::Surface]
         ));
+    }
+
+    #[test]
+    fn filtered_images_are_seen_as_coarsely_as_samples_are_wide() {
+        let (geometry, point) = square();
+        let texels: Vec<f32> = (0..256).map(|i| f32::from((i + i / 16) % 2 == 0)).collect();
+        let image = BitmapImage::from_f32(16, 16, 1, &texels).expect("256 texels");
+        let identity = UvTransform::IDENTITY;
+        let mut materials = Materials::default();
+        let mut textures = Textures::default();
+        for filter in [Filter::Trilinear, Filter::Bilinear] {
+            let bitmap = Bitmap::new(image.clone(), filter, Wrap::Repeat, identity);
+            let reflectance = textures.add(Texture::Bitmap(bitmap));
+            materials.add(Material::Diffuse { reflectance }).expect("it refers to none");
+        }
+        // The middle of a texel, of a square of two units a side.
+        let point = SurfacePoint { uv: [0.53125, 0.53125], ..point };
+        let camera = Camera::new(Projection::Orthographic, Transform::IDENTITY, 0.1, 10.0, [4, 4]);
+        let camera = camera.expect("a camera");
+        // A pixel is half a unit, four texels.
+        for (sight, filtered) in
+            [(Sight::SHARP, 1.0), (Sight::new(&camera, &Film::new([4, 4]), 1), 0.5)]
+        {
+            let prepared = PreparedMaterials::new(&materials, &textures, &geometry, sight);
+            for (id, expected) in [(0, filtered), (1, 1.0)] {
+                let mut varying = Varying::default();
+                let model =
+                    prepared.at(MaterialId(id), &point, Side::Front, Primaries, &mut varying);
+                assert_eq!(model.albedo(Vec3::Z), Some(Color::splat(expected)), "{id}");
+            }
+        }
     }
 }

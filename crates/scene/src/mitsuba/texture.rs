@@ -50,8 +50,8 @@ fn bitmap<'a>(
             ("bilinear", Filter::Bilinear),
             ("nearest", Filter::Nearest),
             // Version 0.6's filters across levels of detail.
-            ("trilinear", Filter::Bilinear),
-            ("ewa", Filter::Bilinear),
+            ("trilinear", Filter::Trilinear),
+            ("ewa", Filter::Trilinear),
         ],
     )?;
     let wrap = reader.choice(
@@ -59,7 +59,7 @@ fn bitmap<'a>(
         &[("repeat", Wrap::Repeat), ("mirror", Wrap::Mirror), ("clamp", Wrap::Clamp)],
     )?;
     let uv = reader.uv_transform("to_uv")?;
-    // How the image is stored, and levels of detail, which are not used here.
+    // How the image is stored, and how far levels of detail are stretched, which is not done here.
     reader.ignore(&["accel", "format", "cache", "max_anisotropy"]);
     let image = image(reader, context, encoding)?;
     Ok(context.textures.add(Texture::Bitmap(Bitmap::new(image, filter, wrap, uv))))

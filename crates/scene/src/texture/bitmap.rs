@@ -2,7 +2,8 @@
 
 use etendue_math::Real;
 
-use super::{BitmapImage, UvTransform};
+use super::pyramid::Pyramid;
+use super::{BitmapImage, TexturePoint, UvTransform};
 use crate::Color;
 
 /// How a colour between texel centres is made.
@@ -13,6 +14,8 @@ pub enum Filter {
     Bilinear,
     /// The texel that contains the point.
     Nearest,
+    /// As bilinear, in an image whose texels are as large as what a sample stands for.
+    Trilinear,
 }
 
 /// What lies outside the unit square.
@@ -58,12 +61,15 @@ pub struct Bitmap {
     filter: Filter,
     wrap: Wrap,
     uv: UvTransform,
+    /// Of a filter that needs one.
+    pyramid: Option<Pyramid>,
 }
 
 impl Bitmap {
     /// A texture from an image and how it is to be looked up.
     pub fn new(image: BitmapImage, filter: Filter, wrap: Wrap, uv: UvTransform) -> Self {
-        Self { image, filter, wrap, uv }
+        let pyramid = (filter == Filter::Trilinear).then(|| Pyramid::new(&image));
+        Self { image, filter, wrap, uv, pyramid }
     }
 
     /// The image.
@@ -88,8 +94,43 @@ impl Bitmap {
                 let (column, row) = (Real::floor(x) as i32, Real::floor(y) as i32);
                 self.image.wrapped(column, row, [self.wrap; 2])
             }
-            Filter::Bilinear => self.image.bilinear([x - 0.5, y - 0.5], [self.wrap; 2]),
+            Filter::Bilinear | Filter::Trilinear => {
+                self.image.bilinear([x - 0.5, y - 0.5], [self.wrap; 2])
+            }
         }
+    }
+
+    /// Whether what is looked at has an extent for it.
+    pub fn is_filtered(&self) -> bool {
+        self.pyramid.is_some()
+    }
+
+    /// The same without regard to that.
+    pub(super) fn lose_filter(&mut self) {
+        if self.pyramid.take().is_some() {
+            self.filter = Filter::Bilinear;
+        }
+    }
+
+    /// The colour of what is looked at, which has an extent for a [`Filter::Trilinear`].
+    #[inline]
+    pub(super) fn color_at(&self, at: TexturePoint<'_>) -> Color {
+        match (&self.pyramid, at.surface) {
+            (Some(pyramid), Some(surface)) => self.filtered(pyramid, at.uv, surface.extent()),
+            _ => self.color(at.uv),
+        }
+    }
+
+    #[inline(never)]
+    fn filtered(&self, pyramid: &Pyramid, [u, v]: [f32; 2], [du, dv]: [f32; 2]) -> Color {
+        let size = [self.image.width() as f32, self.image.height() as f32];
+        let place = self.uv.apply([u, v]);
+        let texels = [[u + du, v], [u, v + dv]].map(|end| {
+            let end = self.uv.apply(end);
+            let [x, y] = [0, 1].map(|axis| (end[axis] - place[axis]) * size[axis]);
+            Real::sqrt(x * x + y * y)
+        });
+        pyramid.color(&self.image, place, texels[0].max(texels[1]), self.wrap)
     }
 
     /// How the luminance of [`color`](Self::color) changes with u and v; 0 for nearest texels.

@@ -9,6 +9,7 @@ mod bitmap;
 mod checkerboard;
 mod image;
 mod point;
+mod pyramid;
 mod uv_transform;
 mod volume;
 
@@ -50,9 +51,13 @@ pub enum Texture {
 }
 
 impl Texture {
-    /// Whether it is looked up at the surface itself and not at texture coordinates.
+    /// Whether it is looked up at the surface itself and not at texture coordinates alone.
     pub(crate) fn needs_surface(&self) -> bool {
-        matches!(self, Self::Attribute(_) | Self::Volume(_))
+        match self {
+            Self::Attribute(_) | Self::Volume(_) => true,
+            Self::Bitmap(bitmap) => bitmap.is_filtered(),
+            Self::Constant(_) | Self::Checkerboard(_) => false,
+        }
     }
 }
 
@@ -122,6 +127,15 @@ impl Textures {
             if varies(texture) {
                 *texture = Texture::Constant(*mean);
                 *max = *mean;
+            }
+        }
+    }
+
+    /// Looks at every image as if samples had no extent.
+    pub(crate) fn lose_filters(&mut self) {
+        for Entry { texture, .. } in &mut self.entries {
+            if let Texture::Bitmap(bitmap) = texture {
+                bitmap.lose_filter();
             }
         }
     }
@@ -198,7 +212,7 @@ impl Textures {
     fn varying(&self, texture: &Texture, id: TextureId, at: TexturePoint<'_>) -> Color {
         match texture {
             Texture::Constant(color) => *color,
-            Texture::Bitmap(bitmap) => bitmap.color(at.uv),
+            Texture::Bitmap(bitmap) => bitmap.color_at(at),
             Texture::Checkerboard(board) => {
                 let square = board.square(at.uv);
                 if square < id { self.color(square, at) } else { Color::black() }
