@@ -45,11 +45,12 @@ impl Pyramid {
             let place = [u * image.width() as f32 - 0.5, v * image.height() as f32 - 0.5];
             image.bilinear(place, [wrap; 2])
         };
-        // False for NaN.
-        if !(texels > 1.0) {
+        // NaN is no maximum.
+        let level = Real::ln(texels.max(1.0)) / core::f32::consts::LN_2;
+        let level = level.min(self.levels.len() as f32);
+        if level == 0.0 {
             return at(0);
         }
-        let level = (Real::ln(texels) / core::f32::consts::LN_2).min(self.levels.len() as f32);
         let (below, fraction) = (level as usize, level - Real::floor(level));
         let above = (below + 1).min(self.levels.len());
         at(below).scale(1.0 - fraction) + at(above).scale(fraction)
