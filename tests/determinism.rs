@@ -5,8 +5,9 @@ mod common;
 use common::{Folder, Picture, repository};
 
 /// The shipped scenes that between them have every kind of path: diffuse walls under an area light,
-/// and specular chains under an environment map.
-const SCENES: [&str; 2] = ["scenes/cornell-box/scene.xml", "scenes/glass-and-metal.xml"];
+/// specular chains under an environment map, and wavelengths.
+const SCENES: [&str; 3] =
+    ["scenes/cornell-box/scene.xml", "scenes/glass-and-metal.xml", "scenes/effects/dispersion.xml"];
 
 /// Not a multiple of any tile, so that tiles at the edges are cut.
 const SIZE: &str = "45x37";

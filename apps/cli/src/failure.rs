@@ -4,7 +4,7 @@ use std::fmt;
 use std::path::Path;
 use std::process::ExitCode;
 
-use etendue_renderer::ThreadError;
+use etendue_renderer::RendererError;
 use etendue_scene::{ErrorKind, SceneError};
 
 /// The exit codes of every étendue command.
@@ -66,8 +66,8 @@ impl fmt::Display for Failure {
     }
 }
 
-impl From<ThreadError> for Failure {
-    fn from(error: ThreadError) -> Self {
+impl From<RendererError> for Failure {
+    fn from(error: RendererError) -> Self {
         Self::new(Exit::Resource, error.to_string())
     }
 }

@@ -26,7 +26,7 @@ impl Configuration {
     pub(crate) fn of(scene: &Scene, settings: &RenderSettings) -> Self {
         if settings.path.spectral || scene.has_dispersion() {
             Self::Spectral
-        } else if settings.path.volumes && scene.has_volumes() {
+        } else if settings.path.volumes && scene.has_volumes() || scene.materials.nest() {
             Self::Volumes
         } else {
             Self::Surfaces
@@ -37,8 +37,22 @@ impl Configuration {
     /// [know media](etendue_scene::scene::PathSettings::volumes): such a scene keeps its own.
     pub(crate) fn largest(scene: &Scene, settings: &RenderSettings) -> Self {
         match Self::of(scene, settings) {
-            Self::Surfaces if settings.path.volumes || !scene.has_volumes() => Self::Volumes,
+            Self::Surfaces
+                if Self::Volumes.is_compiled()
+                    && (settings.path.volumes || !scene.has_volumes()) =>
+            {
+                Self::Volumes
+            }
             own => own,
+        }
+    }
+
+    /// Whether the program was compiled with it: the features `volumes` and `spectral` of this crate.
+    pub fn is_compiled(self) -> bool {
+        match self {
+            Self::Surfaces => true,
+            Self::Volumes => cfg!(feature = "volumes"),
+            Self::Spectral => cfg!(feature = "spectral"),
         }
     }
 
@@ -63,19 +77,18 @@ pub(crate) trait Configured {
 impl Renderer<'_> {
     /// Does a piece of work in the configuration of this render.
     pub(crate) fn configured<C: Configured>(&self, work: C) -> C::Output {
-        match (self.settings.sampler, self.configuration) {
-            (SamplerKind::Independent, Configuration::Surfaces) => {
-                work.run::<Independent, Surfaces>()
-            }
-            (SamplerKind::Independent, Configuration::Volumes) => {
-                work.run::<Independent, Volumes>()
-            }
-            (SamplerKind::Independent, Configuration::Spectral) => {
-                work.run::<Independent, Spectral>()
-            }
-            (SamplerKind::Sobol, Configuration::Surfaces) => work.run::<Sobol, Surfaces>(),
-            (SamplerKind::Sobol, Configuration::Volumes) => work.run::<Sobol, Volumes>(),
-            (SamplerKind::Sobol, Configuration::Spectral) => work.run::<Sobol, Spectral>(),
+        match self.settings.sampler {
+            SamplerKind::Independent => self.configured_with::<Independent, C>(work),
+            SamplerKind::Sobol => self.configured_with::<Sobol, C>(work),
+        }
+    }
+
+    fn configured_with<S: Sampler, C: Configured>(&self, work: C) -> C::Output {
+        match self.configuration {
+            // The conditions are known to the compiler, which leaves out what is not asked for.
+            Configuration::Volumes if cfg!(feature = "volumes") => work.run::<S, Volumes>(),
+            Configuration::Spectral if cfg!(feature = "spectral") => work.run::<S, Spectral>(),
+            _ => work.run::<S, Surfaces>(),
         }
     }
 }

@@ -109,9 +109,10 @@ impl<S: Sampler> Task for TileFeatures<'_, '_, S> {
             let mut sums = Sums::default();
             for sample in 0..samples {
                 let points = S::at(renderer.settings.seed, pixel, u64::from(sample));
-                let (ray, _) = renderer.camera_ray(&filter, &points);
-                if let Some(hit) = tracer.first_hit(ray, &points) {
-                    sums.add(&hit, renderer.scene.camera.depth(hit.point.position));
+                let time = renderer.time(&points);
+                let (ray, _) = renderer.camera_ray(&filter, time, &points);
+                if let Some(hit) = tracer.at(time).first_hit(ray, &points) {
+                    sums.add(&hit, renderer.scene.camera.depth_at(hit.point.position, time));
                 }
             }
             features.push(sums.features(samples));

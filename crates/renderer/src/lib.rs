@@ -68,6 +68,7 @@ mod light_sampler;
 mod path;
 pub mod progressive;
 mod render;
+mod renderer_error;
 mod settings;
 mod statistics;
 mod tile;
@@ -76,7 +77,8 @@ pub use configuration::Configuration;
 pub use features::Features;
 pub use film::{FilmSample, FilterSampler, Image, PixelFilter, PixelSum};
 pub use light_sampler::{LightChoice, LightSampler, Receiver, Sides};
-pub use render::{Progress, Renderer, Rendering, ThreadError};
+pub use render::{Progress, Renderer, Rendering};
+pub use renderer_error::RendererError;
 pub use settings::{Airlight, RenderSettings, Strategy};
 pub use statistics::{NonFiniteSamples, RayCounts, SampleAddress, Statistics};
 

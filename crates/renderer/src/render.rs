@@ -13,6 +13,7 @@ use crate::configuration::{Configuration, Configured};
 use crate::film::{FilterSampler, Image, PixelFilter, PixelSum};
 use crate::light_sampler::{LightSampler, PointLights};
 use crate::path::{PathTracer, Prepared, Transport};
+use crate::renderer_error::RendererError;
 use crate::settings::{Airlight, RenderSettings};
 use crate::statistics::{RayCounts, SampleAddress, Statistics};
 use crate::tile::Tile;
@@ -28,24 +29,10 @@ pub struct Renderer<'a> {
     pub(crate) materials: Prepared<'a>,
     lights: LightSampler,
     point_lights: PointLights,
+    /// Whether samples have a time.
+    has_motion: bool,
     pub(crate) filter: FilterSampler,
     pool: rayon::ThreadPool,
-}
-
-/// The threads that a render needs could not be started.
-#[derive(Debug)]
-pub struct ThreadError(rayon::ThreadPoolBuildError);
-
-impl core::fmt::Display for ThreadError {
-    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        write!(f, "the threads for rendering could not be started: {}", self.0)
-    }
-}
-
-impl core::error::Error for ThreadError {
-    fn source(&self) -> Option<&(dyn core::error::Error + 'static)> {
-        Some(&self.0)
-    }
 }
 
 /// How far a render is.
@@ -72,13 +59,17 @@ impl<'a> Renderer<'a> {
     /// Prepares materials, lights, filter and threads.
     ///
     /// # Errors
-    /// The threads cannot be started.
-    pub fn new(scene: &'a Scene, settings: RenderSettings) -> Result<Self, ThreadError> {
+    /// The threads cannot be started; the program was compiled without the configuration that the scene calls for.
+    pub fn new(scene: &'a Scene, settings: RenderSettings) -> Result<Self, RendererError> {
+        let configuration = Configuration::of(scene, &settings);
+        if !configuration.is_compiled() {
+            return Err(RendererError::NotCompiled(configuration));
+        }
         let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(settings.threads)
             .thread_name(|i| format!("render {i}"))
             .build()
-            .map_err(ThreadError)?;
+            .map_err(RendererError::Threads)?;
         let materials = Prepared::new(scene);
         let lights = LightSampler::new(scene);
         let point_lights = match settings.airlight {
@@ -86,8 +77,18 @@ impl<'a> Renderer<'a> {
             Airlight::Transmittance => PointLights::default(),
         };
         let filter = FilterSampler::new(&scene.film);
-        let configuration = Configuration::of(scene, &settings);
-        Ok(Self { scene, settings, configuration, materials, lights, point_lights, filter, pool })
+        let has_motion = scene.has_motion();
+        Ok(Self {
+            scene,
+            settings,
+            configuration,
+            materials,
+            lights,
+            point_lights,
+            has_motion,
+            filter,
+            pool,
+        })
     }
 
     /// What is rendered with.
@@ -229,8 +230,15 @@ impl<'a> Renderer<'a> {
         points: &S,
         rays: &mut RayCounts,
     ) -> Color {
-        let (ray, weight) = self.camera_ray(filter, points);
-        T::radiance(tracer, ray, points, rays).scale(weight)
+        let time = self.time(points);
+        let (ray, weight) = self.camera_ray(filter, time, points);
+        T::radiance(&tracer.at(time), ray, points, rays).scale(weight)
+    }
+
+    /// The moment of one sample, in shares of the exposure: one for all rays of its path.
+    #[inline(always)]
+    pub(crate) fn time<S: Sampler>(&self, points: &S) -> f32 {
+        if self.has_motion { points.sample_1d(Dimension::camera(Decision::Time)) } else { 0.0 }
     }
 
     /// The camera's ray of one sample, and the weight of the radiance that it finds.
@@ -238,6 +246,7 @@ impl<'a> Renderer<'a> {
     pub(crate) fn camera_ray<S: Sampler>(
         &self,
         filter: &PixelFilter<'_>,
+        time: f32,
         points: &S,
     ) -> (Ray, f32) {
         let film = filter.sample(points.sample_2d(Dimension::camera(Decision::Film)));
@@ -247,7 +256,7 @@ impl<'a> Renderer<'a> {
         } else {
             [0.0; 2]
         };
-        (camera.ray(film.position, lens), film.weight)
+        (camera.ray_at(film.position, lens, time), film.weight)
     }
 }
 
@@ -265,7 +274,7 @@ impl Configured for OneSample<'_, '_> {
         let Self { renderer, pixel, index } = self;
         let points = S::at(renderer.settings.seed, pixel, index);
         let filter = renderer.filter.pixel(pixel);
-        let tracer = renderer.tracer::<T, _>(&renderer.scene.geometry);
+        let tracer = renderer.tracer::<T, _>(renderer.scene.geometry.at(0.0));
         renderer.path_sample::<S, T, _>(&tracer, &filter, &points, &mut RayCounts::default())
     }
 }

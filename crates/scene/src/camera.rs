@@ -8,7 +8,7 @@ use etendue_sampling::warp::disk;
 
 pub use field_of_view::{FieldOfView, FovAxis};
 
-use crate::geometry::{Ray, Transform};
+use crate::geometry::{Motion, Ray, Transform};
 
 /// How directions become points of the picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -89,10 +89,12 @@ pub enum CameraError {
 /// assert_eq!(ray.direction, -Vec3::Z);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Camera {
     projection: Projection,
+    /// Where the shutter opens.
     to_world: Transform,
+    motion: Option<Motion>,
     near: f32,
     far: f32,
     /// The point of the film, in pixels, that the optical axis goes through.
@@ -129,8 +131,7 @@ impl Camera {
         if !(near > 0.0 && near < far && far.is_finite()) {
             return Err(CameraError::Clip { near, far });
         }
-        let axis =
-            Vector3::try_normalize(to_world.vector(Vec3::Z)).ok_or(CameraError::Transform)?;
+        let axis = optical_axis(&to_world).ok_or(CameraError::Transform)?;
         let (half_width, [offset_x, offset_y], optics) = match projection {
             Projection::Perspective { field_of_view, principal_point_offset } => {
                 (field_of_view.half_width(film_size)?, principal_point_offset, Optics::Pinhole)
@@ -157,6 +158,7 @@ impl Camera {
         Ok(Self {
             projection,
             to_world,
+            motion: None,
             near,
             far,
             center: Vec2::new(
@@ -168,8 +170,47 @@ impl Camera {
         })
     }
 
+    /// The same on its way while the shutter is open.
+    ///
+    /// # Errors
+    /// A placement at the opening that leaves no direction to look in.
+    pub fn moving(self, motion: Motion) -> Result<Self, CameraError> {
+        let opening = *motion.opening();
+        let axis = optical_axis(&opening).ok_or(CameraError::Transform)?;
+        Ok(Self { motion: Some(motion), ..self.placed(&opening, axis) })
+    }
+
+    /// The same standing still at another place.
+    fn placed(&self, to_world: &Transform, axis: Vec3) -> Self {
+        let optics = match self.optics {
+            Optics::Parallel { .. } => Optics::Parallel { direction: axis },
+            optics => optics,
+        };
+        let Self { projection, near, far, center, step, .. } = *self;
+        Self { projection, to_world: *to_world, motion: None, near, far, center, step, optics }
+    }
+
+    /// The same standing still where it is at a moment, if it moves.
+    fn on_the_way(&self, time: f32) -> Option<Self> {
+        let to_world = self.motion.as_ref()?.at(time);
+        // The optical axis never vanishes: all placements on the way have inverses.
+        Some(self.placed(&to_world, optical_axis(&to_world).unwrap_or(Vec3::Z)))
+    }
+
+    /// The [`ray`](Self::ray) at a moment, a share of the exposure: 0 where the shutter opens, 1 where it closes.
+    #[inline]
+    pub fn ray_at(&self, film: [f32; 2], lens: [f32; 2], time: f32) -> Ray {
+        if self.is_moving() { self.moving_ray(film, lens, time) } else { self.ray(film, lens) }
+    }
+
+    /// Out of line, since most cameras stand still.
+    #[inline(never)]
+    fn moving_ray(&self, film: [f32; 2], lens: [f32; 2], time: f32) -> Ray {
+        self.on_the_way(time).as_ref().unwrap_or(self).ray(film, lens)
+    }
+
     /// The ray through a point of the film and a point of the lens, from the near clipping plane
-    /// to the far one; its direction has unit length.
+    /// to the far one, where the shutter opens; its direction has unit length.
     ///
     /// * `film`: column and row in pixels of the whole film; the first pixel, at the top left,
     ///   covers `[0, 1)²`.
@@ -208,9 +249,13 @@ impl Camera {
         }
     }
 
-    /// How far a point lies from the camera along its optical axis, in units of the scene; negative
-    /// behind it.
-    pub fn depth(&self, position: Vec3) -> f32 {
+    /// How far a point lies at a moment from the camera along its optical axis, in units of the scene; negative behind
+    /// it.
+    pub fn depth_at(&self, position: Vec3, time: f32) -> f32 {
+        self.on_the_way(time).as_ref().unwrap_or(self).depth(position)
+    }
+
+    fn depth(&self, position: Vec3) -> f32 {
         let axis = self.to_world.vector(Vec3::Z);
         let from_camera = position - self.to_world.point(Vec3::ZERO);
         from_camera.dot(axis) / Vector3::length(axis)
@@ -220,6 +265,17 @@ impl Camera {
     #[inline]
     pub fn has_lens(&self) -> bool {
         matches!(self.optics, Optics::Lens { .. })
+    }
+
+    /// Whether rays depend on the moment.
+    #[inline]
+    pub fn is_moving(&self) -> bool {
+        self.motion.is_some()
+    }
+
+    /// The same where the shutter opens, standing still.
+    pub(crate) fn without_motion(self) -> Self {
+        Self { motion: None, ..self }
     }
 
     /// The same with everything in focus.
@@ -242,10 +298,15 @@ impl Camera {
         self.projection
     }
 
-    /// Where the camera stands, in world coordinates.
+    /// Where the camera stands when the shutter opens, in world coordinates.
     pub fn position(&self) -> Vec3 {
         self.to_world.point(Vec3::ZERO)
     }
+}
+
+/// The unit direction in which a camera looks; `None` where there is none.
+fn optical_axis(to_world: &Transform) -> Option<Vec3> {
+    Vector3::try_normalize(to_world.vector(Vec3::Z))
 }
 
 #[cfg(test)]

@@ -13,9 +13,9 @@ use etendue_math::Vector3;
 use crate::camera::Camera;
 use crate::color::Primaries;
 use crate::film::Film;
-use crate::geometry::{Geometry, Located, SurfacePoint};
+use crate::geometry::{Geometry, Located, ShapeId, SurfacePoint};
 use crate::light::{Light, LightId};
-use crate::material::{Material, MaterialId, Materials, PreparedBsdf, Side};
+use crate::material::{Material, MaterialId, Materials, Nesting, PreparedBsdf, Side};
 use crate::medium::{Boundary, Media, MediumId};
 use crate::texture::Textures;
 
@@ -146,6 +146,11 @@ impl Scene {
         self.infinite_lights = infinite(&self.lights);
     }
 
+    /// Whether anything moves while the shutter is open, so that paths belong to a moment.
+    pub fn has_motion(&self) -> bool {
+        self.camera.is_moving() || self.geometry.moving_count() > 0
+    }
+
     /// The media on a side of a shape, and that around the camera. Paths meet them if they
     /// [know media](PathSettings::volumes).
     pub fn media_in_use(&self) -> BTreeSet<MediumId> {
@@ -165,6 +170,15 @@ impl Scene {
     pub fn has_dispersion(&self) -> bool {
         let used = self.materials.with_parts(self.surfaces.iter().map(|surface| surface.material));
         used.into_iter().any(|id| self.materials.get(id).is_some_and(Material::disperses))
+    }
+
+    /// The body among others whose surface a shape is, if it is one.
+    #[inline]
+    pub fn nesting(&self, shape: ShapeId) -> Option<Nesting> {
+        match self.materials.get(self.surfaces[shape.0 as usize].material) {
+            Some(&Material::Dielectric { nesting, .. }) => nesting,
+            _ => None,
+        }
     }
 
     /// A point that the geometry has given, as [`prepare`](Self::prepare) takes it.

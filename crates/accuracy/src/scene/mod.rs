@@ -18,7 +18,7 @@ use std::time::Instant;
 
 use etendue_math::mix_u64;
 use etendue_renderer::image_metrics::SizeMismatch;
-use etendue_renderer::{Image, Progress, Renderer, ThreadError};
+use etendue_renderer::{Image, Progress, Renderer, RendererError};
 use etendue_scene::Scene;
 use serde_json::{Map, Value, json};
 
@@ -70,7 +70,7 @@ pub struct Outcome {
 pub enum ExperimentError {
     /// Threads.
     #[error(transparent)]
-    Threads(#[from] ThreadError),
+    Threads(#[from] RendererError),
     /// Sizes.
     #[error("the reference: {0}")]
     Size(#[from] SizeMismatch),
@@ -317,7 +317,7 @@ impl Meter<'_> {
         variant: &Variant,
         samples_per_pixel: u32,
         seed: u64,
-    ) -> Result<Option<(Image, f64)>, ThreadError> {
+    ) -> Result<Option<(Image, f64)>, RendererError> {
         let picture = Picture { samples_per_pixel, seed, threads: self.threads };
         let renderer = Renderer::new(scene, variant.settings(scene, picture))?;
         let (finished, total, cost) = (self.finished, self.total, samples_per_pixel as usize);

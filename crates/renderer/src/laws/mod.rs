@@ -9,6 +9,8 @@ mod features;
 mod furnace;
 mod health;
 mod media;
+mod motion;
+mod nesting;
 mod scenes;
 mod spectral;
 mod strategies;

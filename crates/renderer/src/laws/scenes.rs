@@ -6,7 +6,7 @@ use etendue_math::glam::DVec3;
 use etendue_math::{Real, Spectrum};
 use etendue_scene::camera::{Camera, FieldOfView, FovAxis, Projection};
 use etendue_scene::film::{Film, ReconstructionFilter};
-use etendue_scene::geometry::{GeometryBuilder, Rectangle, Shape, Sphere, Transform};
+use etendue_scene::geometry::{GeometryBuilder, Motion, Rectangle, Shape, Sphere, Transform};
 use etendue_scene::light::{AreaLight, ConstantLight, Light, LightId};
 use etendue_scene::material::{
     ConductorIndex, Material, MaterialId, Materials, RelativeDispersion, Roughness,
@@ -56,6 +56,7 @@ impl Sketch {
         Material::Dielectric {
             eta: Ior::new(1.5).expect("an index"),
             dispersion: dispersion.map(relative),
+            nesting: None,
             roughness: alpha.map(|alpha| self.facets(alpha)),
             specular_reflectance: white,
             specular_transmittance: white,
@@ -86,6 +87,15 @@ impl Sketch {
 
     pub(super) fn shape(&mut self, shape: Shape, material: MaterialId) {
         self.geometry.add_shape(shape);
+        self.surface(material);
+    }
+
+    pub(super) fn moving(&mut self, shape: Shape, material: MaterialId, motion: Motion) {
+        self.geometry.add_moving_shape(shape, motion);
+        self.surface(material);
+    }
+
+    fn surface(&mut self, material: MaterialId) {
         self.surfaces.push(SurfaceInfo {
             material,
             light: None,
@@ -102,8 +112,13 @@ impl Sketch {
     /// A shape with a medium inside, and empty space outside.
     pub(super) fn filled(&mut self, shape: Shape, material: MaterialId, interior: MediumId) {
         self.shape(shape, material);
+        self.fill(interior);
+    }
+
+    /// A medium inside the last shape, and empty space outside.
+    pub(super) fn fill(&mut self, interior: MediumId) {
         let boundary = Boundary { interior: Some(interior), exterior: None };
-        self.surfaces.last_mut().expect("the shape").boundary = Some(boundary);
+        self.surfaces.last_mut().expect("a shape").boundary = Some(boundary);
     }
 
     pub(super) fn emitter(&mut self, shape: Shape, material: MaterialId, radiance: f32) {

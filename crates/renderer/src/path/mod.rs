@@ -54,6 +54,8 @@ pub(crate) struct PathTracer<'a, 's, R, C: Channels = Primaries> {
     strategy: Strategy,
     light_sampling: LightSampling,
     several_infinite_lights: Several,
+    /// Whether there are transparent bodies that overlap.
+    nests: bool,
 }
 
 /// Whether light sampling can contribute at all.
@@ -197,7 +199,14 @@ impl<'a, 's, R: Rays, C: Channels> PathTracer<'a, 's, R, C> {
             strategy,
             light_sampling,
             several_infinite_lights,
+            nests: scene.materials.nest(),
         }
+    }
+
+    /// The same for paths at another moment, in shares of the exposure.
+    #[inline(always)]
+    pub(crate) fn at(&self, time: f32) -> Self {
+        Self { rays: self.rays.at(time), ..*self }
     }
 
     /// The largest number of edges of a path.
@@ -241,10 +250,45 @@ impl<'a, 's, R: Rays, C: Channels> PathTracer<'a, 's, R, C> {
         walk: &Walk<C>,
         varying: &'v mut Varying<'v, C>,
     ) -> Vertex<'v, C> {
-        let Walk { channels, ratios, .. } = *walk;
         let wo = point.shading.to_local(-walk.ray.direction);
         let material = self.scene.surfaces[point.shape.0 as usize].material;
-        let bsdf = self.materials.at(material, point, Side::of(wo), channels, varying);
+        let bsdf = self.materials.at(material, point, Side::of(wo), walk.channels, varying);
+        self.vertex_of(depth, point, walk, wo, bsdf)
+    }
+
+    /// The same with an index outside of a body among others.
+    fn vertex_within<'v>(
+        &'v self,
+        depth: u16,
+        point: &'v SurfacePoint,
+        walk: &Walk<C>,
+        exterior: f32,
+        varying: &'v mut Varying<'v, C>,
+    ) -> Vertex<'v, C> {
+        let wo = point.shading.to_local(-walk.ray.direction);
+        let material = self.scene.surfaces[point.shape.0 as usize].material;
+        let copy = SurfacePoint { ..*point };
+        let bsdf = self.materials.at_within(
+            material,
+            copy,
+            Side::of(wo),
+            walk.channels,
+            exterior,
+            varying,
+        );
+        self.vertex_of(depth, point, walk, wo, bsdf)
+    }
+
+    #[inline(always)]
+    fn vertex_of<'v>(
+        &'v self,
+        depth: u16,
+        point: &'v SurfacePoint,
+        walk: &Walk<C>,
+        wo: Vec3,
+        bsdf: &'v PreparedBsdf<'v, C>,
+    ) -> Vertex<'v, C> {
+        let Walk { channels, ratios, .. } = *walk;
         let normal = if wo.z < 0.0 { -point.shading.n } else { point.shading.n };
         let sides = if bsdf.lobes().transmission { Sides::Both } else { Sides::Front };
         let receiver = Receiver { position: point.position, normal, sides };

@@ -39,6 +39,8 @@ pub enum Effect {
     RoughTransmission,
     /// Glass that parts white light into its colours.
     Dispersion,
+    /// Transparent bodies that overlap.
+    NestedDielectrics,
     /// Light that facets scatter more than once.
     MultipleScattering,
     /// Disney's material of many lobes.
@@ -73,6 +75,8 @@ pub enum Effect {
     Instancing,
     /// A lens with an extent, out of whose focus things blur.
     DepthOfField,
+    /// Shapes, instances and a camera that move while the shutter is open.
+    MotionBlur,
     /// Emitters that the camera looks through.
     HiddenEmitters,
     /// Paths that carry wavelengths although nothing parts them.
@@ -83,7 +87,7 @@ pub enum Effect {
 
 impl Effect {
     /// The whole vocabulary.
-    pub const ALL: [Self; 33] = [
+    pub const ALL: [Self; 35] = [
         Self::IndirectLight,
         Self::AreaLight,
         Self::PointLight,
@@ -97,6 +101,7 @@ impl Effect {
         Self::RoughReflection,
         Self::RoughTransmission,
         Self::Dispersion,
+        Self::NestedDielectrics,
         Self::MultipleScattering,
         Self::Principled,
         Self::OpacityMask,
@@ -114,6 +119,7 @@ impl Effect {
         Self::AnisotropicScattering,
         Self::Instancing,
         Self::DepthOfField,
+        Self::MotionBlur,
         Self::HiddenEmitters,
         Self::SpectralColours,
         Self::StrictNormals,
@@ -135,6 +141,7 @@ impl Effect {
             Self::RoughReflection => "rough-reflection",
             Self::RoughTransmission => "rough-transmission",
             Self::Dispersion => "dispersion",
+            Self::NestedDielectrics => "nested-dielectrics",
             Self::MultipleScattering => "multiple-scattering",
             Self::Principled => "principled",
             Self::OpacityMask => "opacity-mask",
@@ -152,6 +159,7 @@ impl Effect {
             Self::AnisotropicScattering => "anisotropic-scattering",
             Self::Instancing => "instancing",
             Self::DepthOfField => "depth-of-field",
+            Self::MotionBlur => "motion-blur",
             Self::HiddenEmitters => "hidden-emitters",
             Self::SpectralColours => "spectral-colours",
             Self::StrictNormals => "strict-normals",
@@ -191,6 +199,9 @@ impl Effect {
             Self::Dispersion => {
                 "four wavelengths instead of three primaries all over the scene, models made at every surface met"
             }
+            Self::NestedDielectrics => {
+                "paths that know which bodies they are in, a look at every surface whether it is one of them, and a model of its own for it"
+            }
             Self::MultipleScattering => {
                 "a row of a table interpolated and a model made each time it is evaluated or sampled, a second lobe"
             }
@@ -226,6 +237,9 @@ impl Effect {
             Self::AnisotropicScattering => "a frame, and a root or a search, per collision",
             Self::Instancing => "a ray transformed and a second hierarchy entered per instance met",
             Self::DepthOfField => "two random numbers and a point on the lens per sample",
+            Self::MotionBlur => {
+                "a random number per sample; a placement interpolated, a ray transformed and a second hierarchy entered per moving shape met"
+            }
             Self::HiddenEmitters => "a further ray behind every emitter that the camera sees",
             Self::SpectralColours => {
                 "four wavelengths instead of three primaries all over the scene, models made at every surface met"

@@ -24,6 +24,8 @@ pub enum Element {
     Medium(MediumId),
     /// The instances of groups of shapes.
     Instances,
+    /// A shape or an instance that moves, in the order in which they were added.
+    Moving(u32),
     /// The camera.
     Camera,
     /// What is computed along paths.
@@ -79,6 +81,9 @@ impl Scene {
             let Some(mut material) = self.materials.get(id).cloned() else { continue };
             let element = Element::Material(id);
             causes.extend(of_surface(&material).map(|effect| (effect, element)));
+            if matches!(material, Material::Dielectric { nesting: Some(_), .. }) {
+                causes.push((Effect::NestedDielectrics, element));
+            }
             if material.disperses() {
                 causes.push((Effect::Dispersion, element));
             }
@@ -102,6 +107,9 @@ impl Scene {
         if self.camera.has_lens() {
             causes.push((Effect::DepthOfField, Element::Camera));
         }
+        let moving = (0..self.geometry.moving_count()).map(|i| Element::Moving(i as u32));
+        let moving = moving.chain(self.camera.is_moving().then_some(Element::Camera));
+        causes.extend(moving.map(|element| (Effect::MotionBlur, element)));
         causes
     }
 }

@@ -19,12 +19,13 @@ impl Scene {
     /// * light: lights are not there, shapes that emit are dark, paths end at the second edge without indirect light;
     /// * reflection and transmission: the lobe is black, and a surface that has no other one is black altogether;
     /// * glass has the index of the yellow line of helium for every wavelength, and paths carry RGB;
+    /// * bodies that overlap are each there, in what is around all of them;
     /// * facets lose what they scatter more than once;
     /// * principled materials are diffuse; surfaces with opacity masks are whole, those that let light pass are black;
     ///   of two that are blended the heavier one is there; normals are those of the shape;
     /// * textures: their mean is everywhere, or 1 times the scale of a mesh attribute;
     /// * media are not there, take as much of every colour, scatter evenly;
-    /// * instances are not there, everything is in focus, emitters are seen, normals need not agree.
+    /// * instances are not there, everything is in focus and stands where it is when the shutter opens, emitters are seen, normals need not agree.
     ///
     /// Lights are numbered anew.
     pub fn without(mut self, effects: &BTreeSet<Effect>) -> Self {
@@ -47,6 +48,12 @@ impl Scene {
         }
         if out(Effect::DepthOfField) {
             self.camera = self.camera.without_lens();
+        }
+        if out(Effect::MotionBlur) {
+            self.camera = self.camera.without_motion();
+            if self.geometry.moving_count() > 0 {
+                self.geometry = self.geometry.without_motion();
+            }
         }
         self
     }
@@ -100,10 +107,9 @@ fn changed(
     }
     let mut changed = material.clone();
     let mut is_simpler = false;
-    if let Material::Dielectric { dispersion, .. } = &mut changed
-        && out(Effect::Dispersion)
-    {
-        is_simpler |= dispersion.take().is_some();
+    if let Material::Dielectric { dispersion, nesting, .. } = &mut changed {
+        is_simpler |= out(Effect::Dispersion) && dispersion.take().is_some();
+        is_simpler |= out(Effect::NestedDielectrics) && nesting.take().is_some();
     }
     let (mut lobes, mut left_out) = (0, 0);
     for (effect, factor) in of_lobes(&mut changed) {

@@ -3,7 +3,8 @@
 use alloc::vec::Vec;
 use core::ops::Range;
 
-use super::{Geometry, Shape, ShapeId, Transform};
+use super::moving::{Moving, Origin};
+use super::{Geometry, Motion, Shape, ShapeId, Transform};
 
 /// A group of shapes that instances refer to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -39,6 +40,7 @@ pub struct GeometryBuilder {
     /// The shapes of each group: groups are added whole.
     pub(super) groups: Vec<Range<u32>>,
     pub(super) instances: Vec<(GroupId, Transform)>,
+    pub(super) moving: Vec<Moving>,
 }
 
 impl GeometryBuilder {
@@ -70,6 +72,25 @@ impl GeometryBuilder {
     pub fn add_instance(&mut self, group: GroupId, transform: Transform) -> u32 {
         self.instances.push((group, transform));
         self.instances.len() as u32 - 1
+    }
+
+    /// Adds a shape, described in the space that moves. As through an instance, fronts stay fronts where a motion
+    /// mirrors.
+    pub fn add_moving_shape(&mut self, shape: Shape, motion: Motion) -> ShapeId {
+        let (group, ids) = self.add_group(alloc::vec![shape]);
+        self.moving.push(Moving { group: group.0, motion, origin: Origin::Shape(ids[0]) });
+        ids[0]
+    }
+
+    /// Places a group in the world that moves. [`Hit::instance`](super::Hit::instance) numbers what moves, shapes
+    /// included, after the instances that do not, in the order in which it was added.
+    pub fn add_moving_instance(&mut self, group: GroupId, motion: Motion) {
+        self.moving.push(Moving { group: group.0, motion, origin: Origin::Instance });
+    }
+
+    /// How many shapes and instances move.
+    pub fn moving_count(&self) -> usize {
+        self.moving.len()
     }
 
     /// Builds the acceleration structures, on all cores with the feature `std`.

@@ -44,12 +44,16 @@ impl Cylinder {
         let axis = p1 - p0;
         let local =
             Frame::<f64>::from_normal(Vector3::try_normalize(axis).ok_or(ShapeError::NoAxis)?);
-        let to_world = transform.compose(&Transform::from_affine(DAffine3::from_cols(
+        Self::of_unit(&transform.compose(&Transform::from_affine(DAffine3::from_cols(
             local.s * radius,
             local.t * radius,
             axis,
             p0,
-        ))?)?;
+        ))?)?)
+    }
+
+    /// The image of the cylinder of radius 1 about the z axis from 0 to 1.
+    fn of_unit(to_world: &Transform) -> Result<Self, ShapeError> {
         let m = &to_world.affine().matrix3;
         let (x, y, z) = (m.x_axis, m.y_axis, m.z_axis);
         let (radius, length) = (Vector3::length(x), Vector3::length(z));
@@ -70,6 +74,16 @@ impl Cylinder {
             length,
             side,
         })
+    }
+
+    /// The cylinder moved by a transform.
+    pub(super) fn transformed(self, transform: &Transform) -> Result<Self, ShapeError> {
+        let Self { start, frame: Frame { s, t, n }, radius, length, side } = self;
+        let unit = DAffine3::from_cols(s * radius, t * radius, n * length, start);
+        let unit = Transform::from_affine(unit)?;
+        let is_flipped = (side < 0.0) != unit.is_mirrored();
+        let moved = Self::of_unit(&transform.compose(&unit)?)?;
+        Ok(if is_flipped { moved.flipped() } else { moved })
     }
 
     /// The same cylinder with front and back exchanged.

@@ -6,7 +6,7 @@ use etendue_sampling::warp::disk;
 
 use super::sphere::{azimuth, round_point};
 use super::surface::LocalSurface;
-use super::{Aabb, Ray, ShapeSample, Transform};
+use super::{Aabb, Ray, ShapeError, ShapeSample, Transform};
 
 /// The unit disk in the plane z = 0, placed by a transform that may stretch it to an ellipse.
 ///
@@ -26,6 +26,12 @@ impl Disk {
     /// The same disk with front and back exchanged.
     pub fn flipped(self) -> Self {
         Self { normal: -self.normal, ..self }
+    }
+
+    /// The disk moved by a transform.
+    pub(super) fn transformed(self, transform: &Transform) -> Result<Self, ShapeError> {
+        let to_world = transform.compose(&self.to_world)?;
+        Ok(Self { to_world, normal: transform.normal(self.normal) })
     }
 
     /// The area, `π |∂p/∂x × ∂p/∂y|`.

@@ -32,7 +32,7 @@ impl<'a> Located<'a> {
     /// # Source
     /// Mitsuba 3, `compute_surface_interaction` of each shape.
     pub fn partials(&self) -> [Vec3; 2] {
-        let SurfacePoint { shape, primitive, uv, instance, .. } = self.point;
+        let SurfacePoint { shape, primitive, uv, instance, time, .. } = self.point;
         let Some(shape) = self.geometry.shapes().get(shape.0 as usize) else {
             return [Vec3::ZERO; 2];
         };
@@ -43,7 +43,7 @@ impl<'a> Located<'a> {
             Shape::Disk(disk) => disk.partials(uv),
             Shape::Cylinder(cylinder) => cylinder.partials(uv),
         };
-        match self.geometry.placement(instance) {
+        match self.geometry.placement(instance, time, &mut None) {
             Some(transform) => local.map(|d| transform.vector(d)),
             None => local,
         }

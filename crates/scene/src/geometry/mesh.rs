@@ -414,8 +414,14 @@ mod tests {
         // All three vertices at one place of the texture: any tangent will do.
         let p = one(vec![], vec![Vec2::ONE; 3]).surface(0, [0.5, 0.25]);
         assert_eq!(p.tangent, None);
-        let hit =
-            Hit { t: 1.0, uv: [0.5, 0.25], shape: ShapeId(0), primitive: 0, instance: u32::MAX };
+        let hit = Hit {
+            t: 1.0,
+            uv: [0.5, 0.25],
+            shape: ShapeId(0),
+            primitive: 0,
+            instance: u32::MAX,
+            time: 0.0,
+        };
         let p = p.of(&hit);
         assert!(p.shading.s.is_finite() && p.shading.s.dot(p.normal) == 0.0);
     }

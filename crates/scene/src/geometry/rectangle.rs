@@ -25,11 +25,21 @@ impl Rectangle {
     pub fn new(transform: &Transform) -> Result<Self, ShapeError> {
         let corners = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]]
             .map(|[x, y]| transform.point(Vec3::new(x, y, 0.0)));
+        Self::of_corners(corners, transform.normal(Vec3::Z))
+    }
+
+    fn of_corners(corners: [Vec3; 4], normal: Vec3) -> Result<Self, ShapeError> {
         if corners.iter().any(|c| !c.is_finite()) {
             return Err(ShapeError::OutOfRange);
         }
         let halves = [0, 1].map(|half| Facet::of(half_of(&corners, half)));
-        Ok(Self { corners, normal: transform.normal(Vec3::Z), halves })
+        Ok(Self { corners, normal, halves })
+    }
+
+    /// The rectangle moved by a transform.
+    pub(super) fn transformed(self, transform: &Transform) -> Result<Self, ShapeError> {
+        let corners = self.corners.map(|corner| transform.point(corner));
+        Self::of_corners(corners, transform.normal(self.normal))
     }
 
     /// The same rectangle with front and back exchanged.

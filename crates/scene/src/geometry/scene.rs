@@ -3,10 +3,13 @@
 use alloc::vec::Vec;
 use core::ops::Range;
 
-use super::bvh::simd::{Backend, Kernel, Simd};
+use super::bvh::simd::{Backend, Simd};
 use super::bvh::{Bvh, Found, Objects, PreparedRay, TriangleRef};
+use super::moving::{Moving, Origin};
 use super::surface::LocalSurface;
-use super::{Aabb, GeometryBuilder, Ray, Shape, ShapeId, SurfacePoint, Transform, triangle};
+use super::{
+    Aabb, GeometryBuilder, Moment, Ray, Rays, Shape, ShapeId, SurfacePoint, Transform, triangle,
+};
 
 /// Shapes, groups and instances, ready for rays.
 ///
@@ -18,6 +21,7 @@ pub struct Geometry {
     /// The shapes that are not part of a group.
     top_level: Vec<ShapeId>,
     instances: Vec<Instance>,
+    moving: Vec<Moving>,
     groups: Vec<Level>,
     pub(super) top: Level,
     pub(super) backend: Backend,
@@ -36,6 +40,8 @@ pub struct Hit {
     pub primitive: u32,
     /// The instance through which the shape was hit, or `u32::MAX` for none.
     pub instance: u32,
+    /// The moment of the hit, in shares of the exposure.
+    pub time: f32,
 }
 
 /// How large a geometry is.
@@ -58,27 +64,17 @@ impl GeometryStatistics {
     }
 }
 
+/// A group that stands still.
 #[derive(Clone, Debug)]
 struct Instance {
     group: u32,
     transform: Transform,
 }
 
-/// The point of any shape, in a group or not. Out of line, so that meshes do not pay for it.
-#[inline(never)]
-fn local_surface(shape: &Shape, instance: Option<&Instance>, ray: Ray, hit: Hit) -> LocalSurface {
-    match instance {
-        None => shape.surface(&ray, &hit),
-        Some(Instance { transform, .. }) => {
-            shape.surface(&transform.inverse_ray(&ray), &hit).transformed(transform)
-        }
-    }
-}
-
 /// One hierarchy: the world, or a group.
 #[derive(Clone, Debug)]
 pub(super) struct Level {
-    /// Its objects are the quadrics, followed by the instances of the world.
+    /// Its objects are the quadrics, followed by the instances of the world and by what moves in it.
     pub(super) bvh: Bvh,
     quadrics: Vec<u32>,
     triangles: usize,
@@ -117,54 +113,95 @@ impl Level {
 
 impl Geometry {
     pub(super) fn build(builder: GeometryBuilder) -> Self {
-        let GeometryBuilder { shapes, top_level, groups, instances } = builder;
-        let groups: Vec<Level> = groups
+        let GeometryBuilder { shapes, top_level, groups, instances, moving } = builder;
+        let groups = groups
             .into_iter()
             .map(|Range { start, end }| Level::build(&shapes, start..end, &[]))
             .collect();
-        let boxes: Vec<Aabb> = instances
-            .iter()
-            // A group of another builder may not exist here: such an instance shows nothing.
-            .map(|(group, transform)| {
-                let group = groups.get(group.0 as usize);
-                group.map_or(Aabb::EMPTY, |level| transform.aabb(&level.bvh.bounds()))
-            })
-            .collect();
-        let top = Level::build(&shapes, top_level.iter().map(|id| id.0), &boxes);
         let instances = instances
             .into_iter()
             .map(|(group, transform)| Instance { group: group.0, transform })
             .collect();
-        Self { shapes, top_level, instances, groups, top, backend: Backend::detect() }
+        let top = Level::build(&shapes, core::iter::empty(), &[]);
+        let backend = Backend::detect();
+        Self { shapes, top_level, instances, moving, groups, top, backend }.with_top()
     }
 
-    /// The same without its instances; the shapes of groups keep their numbers, and no ray meets them.
-    pub(crate) fn without_instances(self) -> Self {
-        let top = Level::build(&self.shapes, self.top_level.iter().map(|id| id.0), &[]);
-        Self { instances: Vec::new(), top, ..self }
+    /// The same with the hierarchy of the world built anew.
+    fn with_top(self) -> Self {
+        // A group of another builder may not exist here: such an instance shows nothing.
+        let group = |number: u32| self.groups.get(number as usize).map(|level| level.bvh.bounds());
+        let still = self.instances.iter().map(|Instance { group: number, transform }| {
+            group(*number).map_or(Aabb::EMPTY, |bounds| transform.aabb(&bounds))
+        });
+        let moving = self.moving.iter().map(|Moving { group: number, motion, .. }| {
+            group(*number).map_or(Aabb::EMPTY, |bounds| motion.bounds(&bounds))
+        });
+        let boxes: Vec<Aabb> = still.chain(moving).collect();
+        let top = Level::build(&self.shapes, self.top_level.iter().map(|id| id.0), &boxes);
+        Self { top, ..self }
     }
 
-    /// The closest hit at `0 < t < t_max`.
+    /// The same without its instances, those that move included; the shapes of groups keep their numbers, and no ray
+    /// meets them.
+    pub(crate) fn without_instances(mut self) -> Self {
+        self.instances.clear();
+        self.moving.retain(|moving| moving.origin != Origin::Instance);
+        self.with_top()
+    }
+
+    /// The same at the opening of the shutter: nothing moves.
+    pub(crate) fn without_motion(mut self) -> Self {
+        for Moving { group, motion, origin } in core::mem::take(&mut self.moving) {
+            let transform = *motion.opening();
+            let placed = match origin {
+                // Mirroring turns some shapes inside out, but no instance.
+                Origin::Shape(id) if !transform.is_mirrored() => {
+                    let shape = self.shapes[id.0 as usize].clone();
+                    shape.transformed(&transform).ok().map(|shape| (id, shape))
+                }
+                Origin::Shape(_) | Origin::Instance => None,
+            };
+            match placed {
+                Some((id, shape)) => {
+                    self.shapes[id.0 as usize] = shape;
+                    self.top_level.push(id);
+                }
+                // A shape of which the motion makes what is no shape of its kind, an ellipsoid, stays an instance.
+                None => self.instances.push(Instance { group, transform }),
+            }
+        }
+        self.top_level.sort_unstable();
+        self.with_top()
+    }
+
+    /// The geometry at a moment: a share of the exposure, 0 where the shutter opens, 1 where it closes.
+    #[inline]
+    pub fn at(&self, time: f32) -> Moment<'_> {
+        Moment::new(self, time)
+    }
+
+    /// The closest hit at `0 < t < t_max`, where the shutter opens.
     #[inline]
     pub fn intersect(&self, ray: &Ray) -> Option<Hit> {
-        self.backend.run(Closest { geometry: self, ray })
+        self.at(0.0).intersect(ray)
     }
 
-    /// Whether anything is hit at `0 < t < t_max`.
+    /// Whether anything is hit at `0 < t < t_max`, where the shutter opens.
     #[inline]
     pub fn occluded(&self, ray: &Ray) -> bool {
-        self.backend.run(Occluded { geometry: self, ray })
+        self.at(0.0).occluded(ray)
     }
 
     #[inline(always)]
-    pub(super) fn intersect_with<S: Simd>(&self, simd: S, ray: &Ray) -> Option<Hit> {
+    pub(super) fn intersect_with<S: Simd>(&self, simd: S, ray: &Ray, time: f32) -> Option<Hit> {
         if !ray.is_valid() {
             return None;
         }
         let mut found = Found::nothing_before(ray.t_max);
         // A copy field by field: objects are asked by calls, and a reference, or a copy that the
         // compiler sees through, would keep the caller's ray in memory.
-        let objects = World { geometry: self, ray: &Ray { ..*ray } };
+        let objects = World { geometry: self, ray: &Ray { ..*ray }, time };
         self.top.bvh.closest(simd, &PreparedRay::new(simd, ray), &objects, &mut found);
         (found.shape != u32::MAX).then_some(Hit {
             t: found.t,
@@ -172,12 +209,13 @@ impl Geometry {
             shape: ShapeId(found.shape),
             primitive: found.primitive,
             instance: found.instance,
+            time,
         })
     }
 
     #[inline(always)]
-    pub(super) fn occluded_with<S: Simd>(&self, simd: S, ray: &Ray) -> bool {
-        let objects = World { geometry: self, ray: &Ray { ..*ray } };
+    pub(super) fn occluded_with<S: Simd>(&self, simd: S, ray: &Ray, time: f32) -> bool {
+        let objects = World { geometry: self, ray: &Ray { ..*ray }, time };
         ray.is_valid()
             && self.top.bvh.occluded(simd, &PreparedRay::new(simd, ray), &objects, ray.t_max)
     }
@@ -189,12 +227,23 @@ impl Geometry {
     #[inline(always)]
     pub fn surface_point(&self, ray: &Ray, hit: &Hit) -> SurfacePoint {
         let shape = &self.shapes[hit.shape.0 as usize];
-        match (shape, self.instances.get(hit.instance as usize)) {
-            (Shape::Mesh(mesh), None) => mesh.surface(hit.primitive, hit.uv).of(hit),
-            (Shape::Rectangle(rectangle), None) => rectangle.surface(hit.primitive, hit.uv).of(hit),
+        match (shape, hit.instance) {
+            (Shape::Mesh(mesh), u32::MAX) => mesh.surface(hit.primitive, hit.uv).of(hit),
+            (Shape::Rectangle(rectangle), u32::MAX) => {
+                rectangle.surface(hit.primitive, hit.uv).of(hit)
+            }
             // Only now made a point, so that those above need not be where this one is returned.
-            (shape, instance) => {
-                local_surface(shape, instance, Ray { ..*ray }, Hit { ..*hit }).of(hit)
+            (shape, _) => self.local_surface(shape, Ray { ..*ray }, Hit { ..*hit }).of(hit),
+        }
+    }
+
+    /// The point of any shape, in a group or not. Out of line, so that meshes do not pay for it.
+    #[inline(never)]
+    fn local_surface(&self, shape: &Shape, ray: Ray, hit: Hit) -> LocalSurface {
+        match self.placement(hit.instance, hit.time, &mut None) {
+            None => shape.surface(&ray, &hit),
+            Some(transform) => {
+                shape.surface(&transform.inverse_ray(&ray), &hit).transformed(transform)
             }
         }
     }
@@ -204,14 +253,45 @@ impl Geometry {
         &self.shapes
     }
 
-    /// Where an instance puts its group; `None` where there is no such instance.
-    pub(super) fn placement(&self, instance: u32) -> Option<&Transform> {
-        self.instances.get(instance as usize).map(|instance| &instance.transform)
+    /// Where an instance puts its group at a moment; `None` where there is no such instance.
+    ///
+    /// * `moved`: where the placement is put if it had to be made for this moment.
+    #[inline(always)]
+    pub(super) fn placement<'a>(
+        &'a self,
+        instance: u32,
+        time: f32,
+        moved: &'a mut Option<Transform>,
+    ) -> Option<&'a Transform> {
+        match self.instances.get(instance as usize) {
+            Some(instance) => Some(&instance.transform),
+            None => {
+                *moved = self.moved(instance, time);
+                moved.as_ref()
+            }
+        }
     }
 
-    /// How many instances of groups there are.
+    /// The same of what moves. Out of line, since most scenes stand still.
+    #[inline(never)]
+    fn moved(&self, instance: u32, time: f32) -> Option<Transform> {
+        self.moving(instance).map(|moving| moving.motion.at(time))
+    }
+
+    /// What moves has the numbers after the instances that do not.
+    fn moving(&self, instance: u32) -> Option<&Moving> {
+        self.moving.get((instance as usize).wrapping_sub(self.instances.len()))
+    }
+
+    /// How many instances of groups there are, those that move included.
     pub fn instance_count(&self) -> usize {
-        self.instances.len()
+        let moving = self.moving.iter().filter(|moving| moving.origin == Origin::Instance);
+        self.instances.len() + moving.count()
+    }
+
+    /// How many shapes and instances move while the shutter is open.
+    pub fn moving_count(&self) -> usize {
+        self.moving.len()
     }
 
     /// A box that holds everything; empty for an empty scene.
@@ -231,40 +311,11 @@ impl Geometry {
     }
 }
 
-/// The closest hit as a kernel.
-struct Closest<'a> {
-    geometry: &'a Geometry,
-    ray: &'a Ray,
-}
-
-impl Kernel for Closest<'_> {
-    type Output = Option<Hit>;
-
-    #[inline(always)]
-    fn run<S: Simd>(self, simd: S) -> Option<Hit> {
-        self.geometry.intersect_with(simd, self.ray)
-    }
-}
-
-/// Any hit as a kernel.
-struct Occluded<'a> {
-    geometry: &'a Geometry,
-    ray: &'a Ray,
-}
-
-impl Kernel for Occluded<'_> {
-    type Output = bool;
-
-    #[inline(always)]
-    fn run<S: Simd>(self, simd: S) -> bool {
-        self.geometry.occluded_with(simd, self.ray)
-    }
-}
-
 /// The objects of the world: quadrics and instances.
 struct World<'a> {
     geometry: &'a Geometry,
     ray: &'a Ray,
+    time: f32,
 }
 
 /// The objects of a group: quadrics only, so that instances do not nest.
@@ -280,25 +331,38 @@ impl<'a> World<'a> {
         Group { shapes, quadrics: &top.quadrics, ray: self.ray }
     }
 
-    /// An object that is not a quadric: the number of the instance, and its group.
+    /// The number of an object that is not a quadric.
     #[inline(always)]
-    fn instance(&self, object: u32) -> Option<(u32, &'a Transform, &'a Level)> {
-        let number = object.checked_sub(self.geometry.top.quadrics.len() as u32)?;
-        let Instance { group, transform } = self.geometry.instances.get(number as usize)?;
-        Some((number, transform, self.geometry.groups.get(*group as usize)?))
+    fn instance(&self, object: u32) -> Option<u32> {
+        object.checked_sub(self.geometry.top.quadrics.len() as u32)
+    }
+
+    /// The group of an instance, and the ray in its space.
+    #[inline(always)]
+    fn enter(&self, instance: u32) -> Option<(&'a Level, Ray)> {
+        let (group, ray) = match self.geometry.instances.get(instance as usize) {
+            Some(Instance { group, transform }) => (*group, transform.inverse_ray(self.ray)),
+            None => self.enter_moving(instance)?,
+        };
+        let group = self.geometry.groups.get(group as usize)?;
+        ray.is_valid().then_some((group, ray))
+    }
+
+    /// The same of what moves; out of line, since most scenes stand still.
+    #[inline(never)]
+    fn enter_moving(&self, instance: u32) -> Option<(u32, Ray)> {
+        let Moving { group, motion, .. } = self.geometry.moving(instance)?;
+        Some((*group, motion.at(self.time).inverse_ray(self.ray)))
     }
 }
 
 impl Objects for World<'_> {
     #[inline(always)]
     fn closest<S: Simd>(&self, simd: S, object: u32, found: &mut Found) {
-        let Some((number, transform, group)) = self.instance(object) else {
+        let Some(number) = self.instance(object) else {
             return self.quadrics().closest(simd, object, found);
         };
-        let ray = transform.inverse_ray(self.ray);
-        if !ray.is_valid() {
-            return;
-        }
+        let Some((group, ray)) = self.enter(number) else { return };
         let objects = Group { shapes: &self.geometry.shapes, quadrics: &group.quadrics, ray: &ray };
         let before = found.t;
         group.bvh.closest(simd, &PreparedRay::new(simd, &ray), &objects, found);
@@ -309,12 +373,12 @@ impl Objects for World<'_> {
 
     #[inline(always)]
     fn occluded<S: Simd>(&self, simd: S, object: u32, t_max: f32) -> bool {
-        let Some((_, transform, group)) = self.instance(object) else {
+        let Some(number) = self.instance(object) else {
             return self.quadrics().occluded(simd, object, t_max);
         };
-        let ray = transform.inverse_ray(self.ray);
+        let Some((group, ray)) = self.enter(number) else { return false };
         let objects = Group { shapes: &self.geometry.shapes, quadrics: &group.quadrics, ray: &ray };
-        ray.is_valid() && group.bvh.occluded(simd, &PreparedRay::new(simd, &ray), &objects, t_max)
+        group.bvh.occluded(simd, &PreparedRay::new(simd, &ray), &objects, t_max)
     }
 }
 

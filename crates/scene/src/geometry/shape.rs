@@ -4,8 +4,8 @@ use etendue_sampling::warp;
 
 use super::surface::LocalSurface;
 use super::{
-    Aabb, Cylinder, Disk, Hit, MeshError, Ray, Rectangle, ShapeSample, Sphere, TransformError,
-    TriangleMesh, triangle,
+    Aabb, Cylinder, Disk, Hit, MeshError, Ray, Rectangle, ShapeSample, Sphere, Transform,
+    TransformError, TriangleMesh, triangle,
 };
 
 /// A shape of a scene, by its place in the scene's list.
@@ -74,6 +74,20 @@ impl Shape {
             Self::Disk(s) => Self::Disk(s.flipped()),
             Self::Cylinder(s) => Self::Cylinder(s.flipped()),
         }
+    }
+
+    /// The shape moved by a transform.
+    ///
+    /// # Errors
+    /// A transform that would make it another kind of shape, a coordinate that leaves the range of `f32`.
+    pub(crate) fn transformed(self, transform: &Transform) -> Result<Self, ShapeError> {
+        Ok(match self {
+            Self::Mesh(s) => Self::Mesh(s.transformed(transform)?),
+            Self::Sphere(s) => Self::Sphere(s.transformed(transform)?),
+            Self::Rectangle(s) => Self::Rectangle(s.transformed(transform)?),
+            Self::Disk(s) => Self::Disk(s.transformed(transform)?),
+            Self::Cylinder(s) => Self::Cylinder(s.transformed(transform)?),
+        })
     }
 
     /// How many primitives points can be drawn on: the triangles of a mesh, 1 otherwise.

@@ -33,13 +33,25 @@ impl Sphere {
         let to_world = transform
             .compose(&Transform::translate(center)?)?
             .compose(&Transform::scale(DVec3::splat(radius))?)?;
-        let radius = uniform_scale(&to_world).ok_or(ShapeError::NonUniformScale)?;
+        Self::of_unit(&to_world)
+    }
+
+    /// The image of the unit sphere.
+    fn of_unit(to_world: &Transform) -> Result<Self, ShapeError> {
+        let radius = uniform_scale(to_world).ok_or(ShapeError::NonUniformScale)?;
         Ok(Self {
             center: to_world.affine().translation.as_vec3().as_dvec3(),
             radius: f64::from(radius as f32),
             side: if to_world.is_mirrored() { -1.0 } else { 1.0 },
-            to_world,
+            to_world: *to_world,
         })
+    }
+
+    /// The sphere moved by a transform.
+    pub(super) fn transformed(self, transform: &Transform) -> Result<Self, ShapeError> {
+        let is_flipped = self.faces_inward() != self.to_world.is_mirrored();
+        let moved = Self::of_unit(&transform.compose(&self.to_world)?)?;
+        Ok(if is_flipped { moved.flipped() } else { moved })
     }
 
     /// The same sphere with front and back exchanged.

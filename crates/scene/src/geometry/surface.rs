@@ -28,6 +28,8 @@ pub struct SurfacePoint {
     pub barycentric: [f32; 2],
     /// The instance through which the shape is seen, or `u32::MAX` for none.
     pub instance: u32,
+    /// When it is there, in shares of the exposure.
+    pub time: f32,
 }
 
 /// What a shape knows of a point on it, in its own space.
@@ -73,6 +75,7 @@ impl LocalSurface {
             primitive: self.primitive,
             barycentric: hit.uv,
             instance: hit.instance,
+            time: hit.time,
         }
     }
 }

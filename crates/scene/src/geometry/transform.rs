@@ -115,6 +115,14 @@ impl Transform {
         Ok(Self { exact, exact_inverse, forward, inverse })
     }
 
+    /// A map that is known to have an inverse, up to rounding; rays through one that has none hit nothing.
+    #[inline]
+    pub(super) fn of_pose(exact: DAffine3) -> Self {
+        let exact_inverse = exact.inverse();
+        let (forward, inverse) = (Affine::round(&exact), Affine::round(&exact_inverse));
+        Self { exact, exact_inverse, forward, inverse }
+    }
+
     /// From a 4 × 4 matrix, row by row.
     ///
     /// # Errors

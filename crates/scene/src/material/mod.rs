@@ -7,6 +7,7 @@ mod compensated;
 mod composed;
 mod dispersive;
 mod model;
+mod nesting;
 mod perturbed;
 mod prepare;
 mod prepared;
@@ -27,6 +28,7 @@ pub use compensated::{Compensated, Compensation, Metal};
 pub use composed::Composed;
 pub use dispersive::{Dispersed, Dispersive, RelativeDispersion};
 pub use model::{Model, PrincipledModel, PrincipledThinModel};
+pub use nesting::Nesting;
 pub use perturbed::Perturbation;
 pub use prepared::{PreparedBsdf, Side};
 pub use prepared_materials::{PreparedMaterials, Varying};
@@ -63,6 +65,8 @@ pub enum Material {
         eta: Ior<f32>,
         /// The same index for every wavelength; none where it is that of all.
         dispersion: Option<Box<RelativeDispersion>>,
+        /// What it is where bodies overlap; none where they do not.
+        nesting: Option<Nesting>,
         /// None for a smooth one.
         roughness: Option<Roughness>,
         /// Factor of reflected light, 1 physically.
@@ -226,6 +230,11 @@ pub enum MaterialError {
     /// It refers to a material that was not added before it.
     #[error("there is no material {0} yet")]
     Unknown(u32),
+    /// It belongs to a family that the program was compiled without.
+    #[error(
+        "this program was compiled without the materials of the feature “{0}” of etendue-scene"
+    )]
+    NotCompiled(&'static str),
     /// It puts bumps on what is already seen in another frame.
     #[error("a bump map cannot be used inside a normal map or a bump map")]
     NestedBumps,
@@ -244,10 +253,13 @@ impl Materials {
     /// Adds a material.
     ///
     /// # Errors
-    /// A reference to a material that was not added before; a [`Material::TwoSided`] of materials
+    /// A family that the program was compiled without; a reference to a material that was not added before; a [`Material::TwoSided`] of materials
     /// that transmit, are masked or are two-sided themselves; a [`Material::BumpMap`] inside another or inside a
     /// [`Material::NormalMap`].
     pub fn add(&mut self, material: Material) -> Result<MaterialId, MaterialError> {
+        if let Some((family, false)) = material.family() {
+            return Err(MaterialError::NotCompiled(family));
+        }
         match material {
             Material::Mask { nested, .. } | Material::Compensated { nested, .. } => {
                 self.get(nested).ok_or(MaterialError::Unknown(nested.0))?;
@@ -333,6 +345,13 @@ impl Materials {
         }
     }
 
+    /// Whether there are [bodies among others](Nesting).
+    pub fn nest(&self) -> bool {
+        let nests =
+            |material: &Material| matches!(material, Material::Dielectric { nesting: Some(_), .. });
+        self.materials.iter().any(nests)
+    }
+
     /// Materials and those that they are made of.
     pub fn with_parts(&self, ids: impl IntoIterator<Item = MaterialId>) -> BTreeSet<MaterialId> {
         let mut all = BTreeSet::new();
@@ -390,6 +409,34 @@ impl Material {
             Self::Compensated { .. } | Self::TwoSided { .. } | Self::Null => Vec::new(),
         };
         textures.into_iter()
+    }
+
+    /// The feature of this crate that it belongs to, and whether the program was compiled with it; none for what is always
+    /// there.
+    pub fn family(&self) -> Option<(&'static str, bool)> {
+        Some(match self {
+            Self::Dielectric { dispersion: Some(_), .. } => {
+                ("dispersion", cfg!(feature = "dispersion"))
+            }
+            Self::Dielectric { roughness: Some(_), .. }
+            | Self::Conductor { roughness: Some(_), .. }
+            | Self::Compensated { .. } => ("rough", cfg!(feature = "rough")),
+            Self::Dielectric { .. } | Self::ThinDielectric { .. } | Self::Conductor { .. } => {
+                ("smooth", cfg!(feature = "smooth"))
+            }
+            Self::Plastic { .. } => ("layered", cfg!(feature = "layered")),
+            Self::Principled(_) | Self::PrincipledThin(_) => {
+                ("principled", cfg!(feature = "principled"))
+            }
+            Self::Blend { .. } | Self::NormalMap { .. } | Self::BumpMap { .. } => {
+                ("composed", cfg!(feature = "composed"))
+            }
+            Self::Diffuse { .. }
+            | Self::RoughDiffuse { .. }
+            | Self::Mask { .. }
+            | Self::TwoSided { .. }
+            | Self::Null => return None,
+        })
     }
 
     /// Whether it refracts light of different wavelengths into different directions.

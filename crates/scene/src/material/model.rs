@@ -122,9 +122,9 @@ impl<C: Channels> Model<'_, C> {
 ///
 /// The first variant's `eval_pdf` and `sample` are inlined, those of the others called: a diffuse
 /// surface takes a handful of instructions, and what surrounds it should not make room for the
-/// longer ones.
+/// longer ones. A variant whose family the program is compiled without is never made, and does nothing.
 macro_rules! forward_bsdf {
-    ($enum:ident: $first:ident, $($variant:ident),+) => {
+    ($enum:ident: $first:ident, $($variant:ident $(if $compiled:expr)?),+) => {
         impl<C: Channels> Bsdf for $enum<'_, C> {
             type Color = C::Color;
 
@@ -132,7 +132,8 @@ macro_rules! forward_bsdf {
             fn lobes(&self) -> Lobes {
                 match self {
                     Self::$first(model) => model.lobes(),
-                    $(Self::$variant(model) => model.lobes()),+
+                    $(Self::$variant(model) if true $(&& $compiled)? => model.lobes(),)+
+                    _ => Lobes::default(),
                 }
             }
 
@@ -159,7 +160,8 @@ macro_rules! forward_bsdf {
             fn albedo(&self, wo: Vec3) -> Option<C::Color> {
                 match self {
                     Self::$first(model) => model.albedo(wo),
-                    $(Self::$variant(model) => model.albedo(wo)),+
+                    $(Self::$variant(model) if true $(&& $compiled)? => model.albedo(wo),)+
+                    _ => None,
                 }
             }
 
@@ -167,7 +169,8 @@ macro_rules! forward_bsdf {
             fn pass_through(&self, wo: Vec3) -> C::Color {
                 match self {
                     Self::$first(model) => model.pass_through(wo),
-                    $(Self::$variant(model) => model.pass_through(wo)),+
+                    $(Self::$variant(model) if true $(&& $compiled)? => model.pass_through(wo),)+
+                    _ => C::Color::black(),
                 }
             }
         }
@@ -176,8 +179,8 @@ macro_rules! forward_bsdf {
             #[inline(never)]
             fn eval_pdf_of_others(&self, wo: Vec3, wi: Vec3) -> (C::Color, f32) {
                 match self {
-                    Self::$first(model) => model.eval_pdf(wo, wi),
-                    $(Self::$variant(model) => model.eval_pdf(wo, wi)),+
+                    $(Self::$variant(model) if true $(&& $compiled)? => model.eval_pdf(wo, wi),)+
+                    _ => (C::Color::black(), 0.0),
                 }
             }
 
@@ -189,8 +192,10 @@ macro_rules! forward_bsdf {
                 u: [f32; 2],
             ) -> Option<Sample<C::Color>> {
                 match self {
-                    Self::$first(model) => model.sample(wo, u_lobe, u),
-                    $(Self::$variant(model) => model.sample(wo, u_lobe, u)),+
+                    $(Self::$variant(model) if true $(&& $compiled)? => {
+                        model.sample(wo, u_lobe, u)
+                    })+
+                    _ => None,
                 }
             }
         }
@@ -201,19 +206,19 @@ forward_bsdf!(
     Model: Lambert,
     OrenNayar,
     OrenNayarQualitative,
-    SmoothDielectric,
-    RoughDielectric,
-    Dispersive,
-    Compensated,
-    ThinDielectric,
-    SmoothConductor,
-    RoughConductor,
-    Plastic,
-    RoughPlastic,
-    Principled,
-    PrincipledThin,
-    Composed,
-    Null
+    Null,
+    SmoothDielectric if cfg!(feature = "smooth"),
+    ThinDielectric if cfg!(feature = "smooth"),
+    SmoothConductor if cfg!(feature = "smooth"),
+    RoughDielectric if cfg!(feature = "rough"),
+    RoughConductor if cfg!(feature = "rough"),
+    Compensated if cfg!(feature = "rough"),
+    Dispersive if cfg!(feature = "dispersion"),
+    Plastic if cfg!(feature = "layered"),
+    RoughPlastic if cfg!(feature = "layered"),
+    Principled if cfg!(feature = "principled"),
+    PrincipledThin if cfg!(feature = "principled"),
+    Composed if cfg!(feature = "composed")
 );
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! From a material to its reflection model at one point.
 
 use etendue_brdf::{
-    Alpha, ComplexIor, KullaContyConductor, Lambert, Microfacets, Null, Opacity, OrenNayar,
+    Alpha, ComplexIor, Ior, KullaContyConductor, Lambert, Microfacets, Null, Opacity, OrenNayar,
     OrenNayarQualitative, Plastic, Reflectance, RoughConductor, RoughDielectric, RoughPlastic,
     Sigma, SmoothConductor, SmoothDielectric, ThinDielectric,
 };
@@ -14,7 +14,7 @@ use super::perturbed::Perturbed;
 use super::prepared::Placed;
 use super::{
     Compensated, Compensation, ConductorIndex, Dispersive, Material, MaterialId, Materials, Metal,
-    Model, OrenNayarForm, PlasticSurface, PreparedBsdf, Roughness, Side,
+    Model, OrenNayarForm, PlasticSurface, PreparedBsdf, RelativeDispersion, Roughness, Side,
 };
 use crate::color::Channels;
 use crate::geometry::SurfacePoint;
@@ -34,6 +34,8 @@ pub(super) struct At<'a, C> {
     textures: &'a Textures,
     point: TexturePoint<'a>,
     channels: C,
+    /// Index of refraction outside of a body among others, where it is not that of its material.
+    exterior: Option<f32>,
 }
 
 impl<'a, C: Channels> At<'a, C> {
@@ -48,7 +50,7 @@ impl<'a, C: Channels> At<'a, C> {
     }
 
     fn composed(self, how: Composition) -> Model<'a, C> {
-        let Self { materials, textures, point, channels } = self;
+        let Self { materials, textures, point, channels, .. } = self;
         Model::Composed(Composed::new(Parts { materials, textures, point, channels }, how))
     }
 
@@ -109,7 +111,20 @@ impl Materials {
         side: Side,
         channels: C,
     ) -> PreparedBsdf<'a, C> {
-        let at = At { materials: self, textures, point, channels };
+        self.prepare_within(id, textures, point, side, channels, None)
+    }
+
+    /// The same for a surface of a [body among others](super::Nesting), which has one of index `exterior` around it there.
+    pub fn prepare_within<'a, C: Channels>(
+        &'a self,
+        id: MaterialId,
+        textures: &'a Textures,
+        point: TexturePoint<'a>,
+        side: Side,
+        channels: C,
+        exterior: Option<f32>,
+    ) -> PreparedBsdf<'a, C> {
+        let at = At { materials: self, textures, point, channels, exterior };
         let mut material = self.get(id);
         let mut opacity = 1.0;
         // Masks of masks end: each refers to a material before itself.
@@ -162,10 +177,36 @@ fn compensated<'a, C: Channels>(
     }
 }
 
+/// The model of an interface between transparent media.
+fn interface<'a, C: Channels>(
+    eta: Ior<f32>,
+    dispersion: Option<RelativeDispersion>,
+    roughness: Option<&Roughness>,
+    [ks, kt]: [Reflectance<C::Color>; 2],
+    at: At<'a, C>,
+) -> Model<'a, C> {
+    let facets = roughness.map(|roughness| at.facets(roughness, f32::INFINITY));
+    if let Some(dispersion) = dispersion
+        && let Some(indices) = at.channels.indices(|nm| dispersion.index(nm))
+    {
+        return Model::Dispersive(Dispersive::new(indices, facets).with_factors(ks, kt));
+    }
+    // Refused for equal indices only: no facet refracts, whatever its normal.
+    let rough = facets.and_then(|facets| RoughDielectric::new(eta, facets).ok());
+    match rough {
+        Some(rough) => Model::RoughDielectric(rough.with_factors(ks, kt)),
+        None => Model::SmoothDielectric(SmoothDielectric::new(eta).with_factors(ks, kt)),
+    }
+}
+
 /// The model of a material that is made of no others.
 #[inline]
 fn model<'a, C: Channels>(material: Option<&'a Material>, at: At<'a, C>) -> Model<'a, C> {
     let Some(material) = material else { return Model::Null(Null::new()) };
+    if let Some((_, false)) = material.family() {
+        // Refused when it was added; said again so that nothing of it is linked.
+        return Model::Null(Null::new());
+    }
     match *material {
         Material::Diffuse { reflectance } => {
             Model::Lambert(Lambert::new(at.reflectance(reflectance)))
@@ -183,26 +224,21 @@ fn model<'a, C: Channels>(material: Option<&'a Material>, at: At<'a, C>) -> Mode
         Material::Dielectric {
             eta,
             ref dispersion,
+            nesting,
             ref roughness,
             specular_reflectance,
             specular_transmittance,
         } => {
-            let ks = at.reflectance(specular_reflectance);
-            let kt = at.reflectance(specular_transmittance);
-            if let Some(dispersion) = dispersion
-                && let Some(indices) = at.channels.indices(|nm| dispersion.index(nm))
-            {
-                let facets =
-                    roughness.as_ref().map(|roughness| at.facets(roughness, f32::INFINITY));
-                return Model::Dispersive(Dispersive::new(indices, facets).with_factors(ks, kt));
-            }
-            let smooth = SmoothDielectric::new(eta).with_factors(ks, kt);
-            let Some(roughness) = roughness else { return Model::SmoothDielectric(smooth) };
-            match RoughDielectric::new(eta, at.facets(roughness, f32::INFINITY)) {
-                Ok(rough) => Model::RoughDielectric(rough.with_factors(ks, kt)),
-                // Refused for equal indices only: no facet refracts, whatever its normal.
-                Err(_) => Model::SmoothDielectric(smooth),
-            }
+            let factors =
+                [specular_reflectance, specular_transmittance].map(|id| at.reflectance(id));
+            let exterior = nesting.and(at.exterior);
+            // An index outside the domain is as good as that of the material: the scene format knows how far they go.
+            let nested = nesting.zip(exterior).and_then(|(n, e)| Ior::new(n.interior / e).ok());
+            let dispersion = dispersion.as_deref().map(|&dispersion| RelativeDispersion {
+                exterior: exterior.map_or(dispersion.exterior, f64::from),
+                ..dispersion
+            });
+            interface(nested.unwrap_or(eta), dispersion, roughness.as_ref(), factors, at)
         }
         Material::ThinDielectric { eta, specular_reflectance, specular_transmittance } => {
             let ks = at.reflectance(specular_reflectance);

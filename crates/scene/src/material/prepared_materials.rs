@@ -98,6 +98,30 @@ impl<'a, C: Channels> PreparedMaterials<'a, C> {
         }
     }
 
+    /// The same for a surface of a [body among others](super::Nesting), which has one of index `exterior` around it there.
+    #[inline(never)]
+    pub fn at_within<'b>(
+        &'b self,
+        id: MaterialId,
+        point: SurfacePoint,
+        side: Side,
+        channels: C,
+        exterior: f32,
+        varying: &'b mut Varying<'b, C>,
+    ) -> &'b PreparedBsdf<'b, C> {
+        let surface = &*varying.surface.insert(Located::new(self.geometry, point));
+        let Self { materials, textures, .. } = *self;
+        let at = surface.into();
+        varying.bsdf.insert(materials.prepare_within(
+            id,
+            textures,
+            at,
+            side,
+            channels,
+            Some(exterior),
+        ))
+    }
+
     /// The same for a material that depends on more than texture coordinates; out of line.
     #[inline(never)]
     fn at_surface<'b>(

@@ -62,6 +62,7 @@ fn every_kind(s: &mut Studio) -> Vec<MaterialId> {
     let dielectric = |roughness| Material::Dielectric {
         eta,
         dispersion: None,
+        nesting: None,
         roughness,
         specular_reflectance: white,
         specular_transmittance: half,
@@ -237,6 +238,7 @@ fn equal_indices_are_invisible_even_when_rough() {
     let air = s.add(Material::Dielectric {
         eta: Ior::new(1.0).expect("an index"),
         dispersion: None,
+        nesting: None,
         roughness: Some(roughness),
         specular_reflectance: white,
         specular_transmittance: white,
@@ -344,6 +346,7 @@ fn compensation_brings_back_what_facets_lose() {
     let glass = s.add(Material::Dielectric {
         eta,
         dispersion: None,
+        nesting: None,
         roughness,
         specular_reflectance: white,
         specular_transmittance: white,

@@ -56,8 +56,14 @@ pub(super) fn mesh(path: &Path, options: &LoadOptions) -> Result<LoadedScene, Sc
         let mesh = shaded(mesh, is_flat)
             .map_err(|e| SceneError::scene(Location::file(path), format!("{e}")))?;
         let material = material.and_then(|index| own.get(index)).copied().unwrap_or(other);
-        let surface =
-            Surface { shape: Shape::Mesh(mesh), material, radiance: None, boundary: None, name };
+        let surface = Surface {
+            shape: Shape::Mesh(mesh),
+            motion: None,
+            material,
+            radiance: None,
+            boundary: None,
+            name,
+        };
         add_surface(&mut context, surface);
     }
     context.lights.push(Light::Constant(ConstantLight { radiance: Color::new(1.0, 1.0, 1.0) }));

@@ -8,7 +8,7 @@ use std::path::PathBuf;
 use super::LoadOptions;
 use super::origins::Origins;
 use super::reader::PluginReader;
-use crate::geometry::{GeometryBuilder, GroupId};
+use crate::geometry::{GeometryBuilder, GroupId, Shutter};
 use crate::light::Light;
 use crate::material::{Material, MaterialId, Materials};
 use crate::medium::{Media, MediumId};
@@ -28,6 +28,8 @@ pub(super) type Family<T> = [(&'static str, Translate<T>)];
 pub(super) struct Context<'a> {
     pub(super) description: &'a Description,
     pub(super) options: &'a LoadOptions,
+    /// When the picture is taken.
+    pub(super) shutter: Shutter,
     pub(super) warnings: Vec<Warning>,
     /// Files read beside the scene files themselves.
     pub(super) files: Vec<PathBuf>,
@@ -52,6 +54,7 @@ impl<'a> Context<'a> {
         Self {
             description,
             options,
+            shutter: Shutter::default(),
             warnings: Vec::new(),
             files: Vec::new(),
             textures: Textures::default(),

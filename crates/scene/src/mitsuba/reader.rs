@@ -8,9 +8,9 @@ use alloc::vec::Vec;
 use etendue_math::glam::{DMat4, DVec3};
 
 use super::Context;
-use crate::geometry::Transform;
+use crate::geometry::{Animation, Placement, Transform, TransformError};
 use crate::texture::UvTransform;
-use crate::xml::{Child, Kind, Leniency, Node, Property, Value, nearest};
+use crate::xml::{Child, Keyframe, Kind, Leniency, Node, Property, Value, nearest};
 use crate::{Location, SceneError, Warning};
 
 /// The parameters of a plugin, each of which counts as read once it was asked for.
@@ -156,6 +156,10 @@ impl<'a> PluginReader<'a> {
     }
 
     fn matrix(&mut self, name: &'static str) -> Result<DMat4, SceneError> {
+        if let Some(Property { value: Value::Animation(_), .. }) = self.property(name) {
+            let message = format!("{} cannot move", self.title());
+            return Err(self.error(name, message).help("shapes, instances and sensors can"));
+        }
         let read = self.read(name, "transform", |value| match value {
             Value::Transform(matrix) => Some(*matrix),
             _ => None,
@@ -165,8 +169,40 @@ impl<'a> PluginReader<'a> {
 
     /// A transform of space, the identity where the parameter is missing.
     pub(super) fn transform(&mut self, name: &'static str) -> Result<Transform, SceneError> {
-        let rows = self.matrix(name)?.transpose().to_cols_array_2d();
-        Transform::from_rows(rows).map_err(|e| self.error(name, format!("“{name}”: {e}")))
+        let matrix = self.matrix(name)?;
+        transform(&matrix).map_err(|e| self.error(name, format!("“{name}”: {e}")))
+    }
+
+    /// A transform of space or an animation of it, as it is while the shutter is open.
+    pub(super) fn placement(
+        &mut self,
+        name: &'static str,
+        context: &mut Context<'_>,
+    ) -> Result<Placement, SceneError> {
+        let Some(Property { value: Value::Animation(keyframes), location, .. }) =
+            self.property(name)
+        else {
+            return self.transform(name).map(Placement::Still);
+        };
+        let at = |keyframe: usize| {
+            keyframes.get(keyframe).map_or(location, |keyframe| &keyframe.location).clone()
+        };
+        let placements = keyframes.iter().map(|Keyframe { time, matrix, location }| {
+            let refused = |e| SceneError::scene(location.clone(), format!("“{name}”: {e}"));
+            Ok((*time, transform(matrix).map_err(refused)?))
+        });
+        let animation = Animation::new(placements.collect::<Result<_, _>>()?).map_err(|e| {
+            let at = e.keyframe().map_or_else(|| location.clone(), at);
+            SceneError::scene(at, format!("“{name}”: {e}"))
+        })?;
+        let placement = animation.during(context.shutter);
+        if let (Placement::Moving(_), Some(keyframe)) = (&placement, animation.half_turn()) {
+            let message = format!(
+                "“{name}” turns by 180°, which leaves open which way round: a keyframe between says it"
+            );
+            context.warn(at(keyframe), message);
+        }
+        Ok(placement)
     }
 
     /// A transform of texture coordinates, the identity where the parameter is missing.
@@ -259,4 +295,8 @@ impl<'a> PluginReader<'a> {
             None => error.help(format!("it has {list}")),
         }
     }
+}
+
+fn transform(matrix: &DMat4) -> Result<Transform, TransformError> {
+    Transform::from_rows(matrix.transpose().to_cols_array_2d())
 }

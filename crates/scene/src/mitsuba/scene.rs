@@ -16,6 +16,11 @@ use crate::{Location, SceneError};
 pub(super) fn scene(mut context: Context<'_>) -> Result<LoadedScene, SceneError> {
     let root = context.description.root();
     let mut reader = PluginReader::new(root);
+    let sensors = reader.children(Kind::Sensor, &context);
+    if let Some(child) = sensors.first() {
+        context.shutter =
+            sensor::shutter(&mut PluginReader::new(context.description.node(child.node)))?;
+    }
     for child in reader.children(Kind::Texture, &context) {
         texture::translate(&mut context, child.node)?;
     }
@@ -36,7 +41,7 @@ pub(super) fn scene(mut context: Context<'_>) -> Result<LoadedScene, SceneError>
         Some(child) => integrator::translate(&mut context, child.node)?,
         None => PathSettings::default(),
     };
-    let sensor = match reader.children(Kind::Sensor, &context)[..] {
+    let sensor = match sensors[..] {
         [] => {
             context.warn(root.location.clone(), "there is no sensor: the camera frames the scene");
             None

@@ -9,6 +9,7 @@ use crate::SceneError;
 use crate::camera::{Camera, Projection};
 use crate::effect::Element;
 use crate::film::Film;
+use crate::geometry::Shutter;
 use crate::scene::SamplingSettings;
 use crate::xml::NodeId;
 
@@ -73,8 +74,16 @@ fn orthographic<'a>(
     sensor(reader, context, Projection::Orthographic)
 }
 
-/// What all sensors have: `to_world`, `near_clip` (0.01), `far_clip` (10 000), film, sampler and at most
-/// one medium, in which the camera stands.
+/// `shutter_open` and `shutter_close` (0), in the time of animations.
+pub(super) fn shutter(reader: &mut PluginReader<'_>) -> Result<Shutter, SceneError> {
+    let open = reader.float("shutter_open")?.unwrap_or(0.0);
+    let close = reader.float("shutter_close")?.unwrap_or(0.0);
+    let at = if reader.has("shutter_close") { "shutter_close" } else { "shutter_open" };
+    Shutter::new(open, close).map_err(|e| reader.error(at, format!("{e}")))
+}
+
+/// What all sensors have: `to_world`, which may be an animation, the shutter, `near_clip` (0.01), `far_clip` (10 000),
+/// film, sampler and at most one medium, in which the camera stands.
 fn sensor<'a>(
     reader: &mut PluginReader<'a>,
     context: &mut Context<'a>,
@@ -83,12 +92,16 @@ fn sensor<'a>(
     context.media.around_camera = medium::around(reader, context)?;
     let film = film::of(reader, context)?;
     let sampling = sampler::of(reader, context)?;
-    let to_world = reader.transform("to_world")?;
+    // Read already: shapes have to know it.
+    shutter(reader)?;
+    let (to_world, motion) = reader.placement("to_world", context)?.into_parts();
     let near = reader.float("near_clip")?.unwrap_or(NEAR_CLIP) as f32;
     let far = reader.float("far_clip")?.unwrap_or(FAR_CLIP) as f32;
-    // Nothing moves, so it does not matter when the shutter is open.
-    reader.ignore(&["shutter_open", "shutter_close"]);
-    let camera = Camera::new(projection, to_world, near, far, film.size)
-        .map_err(|e| reader.error("fov", format!("{}: {e}", reader.title())))?;
+    let camera = Camera::new(projection, to_world, near, far, film.size);
+    let camera = match motion {
+        Some(motion) => camera.and_then(|camera| camera.moving(motion)),
+        None => camera,
+    };
+    let camera = camera.map_err(|e| reader.error("fov", format!("{}: {e}", reader.title())))?;
     Ok(Sensor { camera, film, sampling })
 }

@@ -2,6 +2,7 @@
 
 mod materials;
 mod media;
+mod motion;
 
 use alloc::format;
 use alloc::string::{String, ToString};

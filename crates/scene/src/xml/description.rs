@@ -98,6 +98,19 @@ pub enum Value {
     Spectrum(SpectrumValue),
     /// `<transform>`, finite, the product of its operations
     Transform(DMat4),
+    /// `<animation>`
+    Animation(Vec<Keyframe>),
+}
+
+/// A `<transform time="…">` of an animation.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Keyframe {
+    /// When, finite.
+    pub time: f64,
+    /// The product of its operations, finite.
+    pub matrix: DMat4,
+    /// Where.
+    pub location: Location,
 }
 
 impl Value {
@@ -112,6 +125,7 @@ impl Value {
             Self::Rgb(_) => "rgb colour",
             Self::Spectrum(_) => "spectrum",
             Self::Transform(_) => "transform",
+            Self::Animation(_) => "animation",
         }
     }
 }

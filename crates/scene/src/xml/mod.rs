@@ -17,7 +17,9 @@ mod search;
 mod source;
 mod transform;
 
-pub use description::{Child, Description, Kind, Node, NodeId, Property, SpectrumValue, Value};
+pub use description::{
+    Child, Description, Keyframe, Kind, Node, NodeId, Property, SpectrumValue, Value,
+};
 pub(crate) use nearest::nearest;
 pub(crate) use numbers::{parse_float, parse_list};
 pub use parse::{Leniency, parse_file, parse_text};

@@ -7,10 +7,11 @@ use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 use std::path::{Path, PathBuf};
 
+use etendue_math::glam::DMat4;
 use roxmltree::Node as Element;
 
 use super::definitions::Definitions;
-use super::description::{Child, Description, Kind, Node, NodeId, Property};
+use super::description::{Child, Description, Keyframe, Kind, Node, NodeId, Property, Value};
 use super::names::{parse_version, snake_case, upgrade};
 use super::nearest::nearest;
 use super::resolve::{Reference, resolve};
@@ -313,13 +314,17 @@ impl Parser {
             "null" => source.check_empty(element)?,
             "transform" => {
                 source.check_attributes(element, &["name"])?;
-                let name = required("name")?.to_owned();
-                let mut operations = Vec::new();
-                for child in element.children().filter(Element::is_element) {
-                    operations.push((child, self.attributes(source, child)?));
-                }
-                let value = property::transform(source, &operations)?;
-                self.set(parent, Property { name: snake_case(&name), value, location })?;
+                let name = snake_case(required("name")?);
+                let value = Value::Transform(self.matrix(source, element)?);
+                self.set(parent, Property { name, value, location })?;
+            }
+            "animation" => {
+                source.check_attributes(element, &["name"])?;
+                let name = snake_case(required("name")?);
+                let keyframes = element.children().filter(Element::is_element);
+                let keyframes = keyframes.map(|child| self.keyframe(source, child));
+                let value = Value::Animation(keyframes.collect::<Result<_, _>>()?);
+                self.set(parent, Property { name, value, location })?;
             }
             _ => {
                 let (name, value) = property::value(source, element, &attributes)?;
@@ -327,6 +332,37 @@ impl Parser {
             }
         }
         Ok(())
+    }
+
+    /// The product of the operations inside a `<transform>`.
+    fn matrix(
+        &mut self,
+        source: &Source<'_>,
+        element: Element<'_, '_>,
+    ) -> Result<DMat4, SceneError> {
+        let mut operations = Vec::new();
+        for child in element.children().filter(Element::is_element) {
+            operations.push((child, self.attributes(source, child)?));
+        }
+        property::transform(source, &operations)
+    }
+
+    /// A `<transform time="…">` inside an `<animation>`.
+    fn keyframe(
+        &mut self,
+        source: &Source<'_>,
+        element: Element<'_, '_>,
+    ) -> Result<Keyframe, SceneError> {
+        let tag = element.tag_name().name();
+        if tag != "transform" {
+            let message = format!("<{tag}> cannot stand inside <animation>");
+            return Err(source.error(element, message).help("write <transform time=\"…\">"));
+        }
+        let attributes = self.attributes(source, element)?;
+        source.check_attributes(element, &["time"])?;
+        let time = property::time(source, element, &attributes)?;
+        let matrix = self.matrix(source, element)?;
+        Ok(Keyframe { time, matrix, location: source.location(element) })
     }
 
     fn include(

@@ -74,7 +74,7 @@ pub(super) fn value<'a>(
 pub(super) fn transform<'a>(
     source: &'a Source<'a>,
     operations: &'a [(Element<'a, 'a>, Attributes<'a>)],
-) -> Result<Value, SceneError> {
+) -> Result<DMat4, SceneError> {
     let mut product = DMat4::IDENTITY;
     for (element, attributes) in operations {
         let operation = Reader { source, element: *element, attributes }.operation()?;
@@ -83,7 +83,20 @@ pub(super) fn transform<'a>(
             return Err(source.error(*element, "the transform overflows"));
         }
     }
-    Ok(Value::Transform(product))
+    Ok(product)
+}
+
+/// The time of a keyframe.
+///
+/// # Errors
+/// None, or one that is no finite number.
+pub(super) fn time<'a>(
+    source: &'a Source<'a>,
+    element: Element<'a, 'a>,
+    attributes: &'a Attributes<'a>,
+) -> Result<f64, SceneError> {
+    let reader = Reader { source, element, attributes };
+    reader.float(reader.required("time")?)
 }
 
 /// The attributes of one element.

@@ -18,8 +18,8 @@ use crate::{Location, SceneError};
 const LARGEST_FILE: usize = 1 << 28;
 
 /// The element names a scene file may have beside those of plugins and of values.
-const OTHER_ELEMENTS: [&str; 7] =
-    ["default", "path", "ref", "alias", "include", "transform", "null"];
+const OTHER_ELEMENTS: [&str; 8] =
+    ["default", "path", "ref", "alias", "include", "transform", "animation", "null"];
 
 /// Reads a scene file whole.
 ///

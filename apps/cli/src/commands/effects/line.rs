@@ -46,6 +46,7 @@ pub(super) fn reason(presence: &Presence, loaded: &LoadedScene) -> String {
         (None, Element::Light(_)) => "the light around a bare mesh".to_owned(),
         (None, Element::Medium(_)) => "a medium that the file does not describe".to_owned(),
         (None, Element::Instances) => "instances".to_owned(),
+        (None, Element::Moving(_)) => "a shape that moves".to_owned(),
         (None, Element::Camera) => "the camera".to_owned(),
         (None, Element::Paths) => "paths as they are without an integrator".to_owned(),
     };

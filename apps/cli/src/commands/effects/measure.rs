@@ -6,7 +6,7 @@ use std::path::Path;
 use std::time::Instant;
 
 use etendue_renderer::image_metrics::{SizeMismatch, compare, difference_picture, flip};
-use etendue_renderer::{Image, RenderSettings, Renderer, ThreadError};
+use etendue_renderer::{Image, RenderSettings, Renderer, RendererError};
 use etendue_report::{Cell, Table};
 use etendue_scene::{Effect, Scene};
 use serde_json::json;
@@ -139,7 +139,7 @@ impl Pair {
     }
 }
 
-fn prepare(scene: &Scene) -> Result<Renderer<'_>, ThreadError> {
+fn prepare(scene: &Scene) -> Result<Renderer<'_>, RendererError> {
     Renderer::new(scene, RenderSettings::of_scene(scene))
 }
 

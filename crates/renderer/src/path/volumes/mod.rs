@@ -1,6 +1,7 @@
 //! Paths through surfaces and participating media.
 
 mod airlight;
+mod bodies;
 mod collision;
 mod course;
 mod shadow;
@@ -16,8 +17,9 @@ use etendue_scene::geometry::{Ray, Rays};
 use etendue_scene::material::{PreparedMaterials, Varying};
 
 use super::transport::{Prepared, Spectral, Transport, Volumes};
-use super::{Fate, PathTracer, Walk};
+use super::{Arrival, Fate, PathTracer, Walk};
 use crate::statistics::RayCounts;
+use bodies::{Bodies, Crossing};
 use course::Course;
 use travel::Event;
 
@@ -70,7 +72,8 @@ impl<R: Rays, C: Channels> PathTracer<'_, '_, R, C> {
     /// ```
     ///
     /// The distance to the next collision is drawn in proportion to T σt of one channel; where
-    /// channels differ, as if from the mixture of all three. Edges count as in Mitsuba 3's `volpath`:
+    /// channels differ, as if from the mixture of all three; light of single points is looked for near to them as well, by a
+    /// [`Beam`](airlight::Beam). Edges count as in Mitsuba 3's `volpath`:
     /// a collision is a vertex, a surface that light passes straight on is none, though it has
     /// random numbers of its own.
     ///
@@ -89,6 +92,7 @@ impl<R: Rays, C: Channels> PathTracer<'_, '_, R, C> {
         let mut radiance = C::Color::black();
         let mut walk = Walk::from_camera(camera_ray, channels);
         let mut course = Course::in_medium(self.around_camera());
+        let mut bodies = Bodies::none(course.medium);
         let mut edges = 1;
         rays.camera += 1;
         // The address of a vertex, which is `edges` where nothing was passed.
@@ -119,25 +123,48 @@ impl<R: Rays, C: Channels> PathTracer<'_, '_, R, C> {
                     (shadowed, self.scatter_in_medium(&collision, edges, &mut walk, points))
                 }
                 Event::Surface(point) => {
-                    radiance += walk.throughput * self.emitted(&walk, &point);
-                    let mut varying = Varying::default();
-                    let vertex = self.vertex(depth, &point, &walk, &mut varying);
-                    let is_last = edges == longest;
                     throughput = walk.throughput;
-                    // Of the last surface matters only what passes it.
-                    if is_last && !vertex.bsdf.lobes().delta
-                        || self.is_inconsistent(&vertex, -walk.ray.direction, vertex.wo)
-                    {
-                        (None, Fate::Ends)
+                    let direction = walk.ray.direction;
+                    let crossing =
+                        if self.nests { self.crossing(&bodies, &point, direction) } else { None };
+                    if let Some(hidden) = crossing.as_ref().filter(|crossing| crossing.is_hidden) {
+                        // Goes on as if there were no surface. Shadow rays end there.
+                        course.medium = bodies.cross(hidden);
+                        walk.ray = point.spawn(direction);
+                        walk.arrival = Arrival::Certain;
+                        (None, Fate::Passes)
                     } else {
-                        let shadowed = if is_last {
-                            None
-                        } else {
-                            self.light_at_surface(&vertex, &course, points)
+                        radiance += walk.throughput * self.emitted(&walk, &point);
+                        let mut varying = Varying::default();
+                        let vertex = match &crossing {
+                            Some(Crossing { exterior, .. }) => {
+                                self.vertex_within(depth, &point, &walk, *exterior, &mut varying)
+                            }
+                            None => self.vertex(depth, &point, &walk, &mut varying),
                         };
-                        let fate = self.scatter::<T, S>(&vertex, edges, &mut walk, points);
-                        course.medium = self.beyond(&point, walk.ray.direction, course.medium);
-                        (shadowed, fate)
+                        let is_last = edges == longest;
+                        // Of the last surface matters only what passes it.
+                        if is_last && !vertex.bsdf.lobes().delta
+                            || self.is_inconsistent(&vertex, -direction, vertex.wo)
+                        {
+                            (None, Fate::Ends)
+                        } else {
+                            let shadowed = if is_last {
+                                None
+                            } else {
+                                self.light_at_surface(&vertex, &course, points)
+                            };
+                            let fate = self.scatter::<T, S>(&vertex, edges, &mut walk, points);
+                            let onwards = walk.ray.direction;
+                            let passes =
+                                onwards.dot(point.normal) * direction.dot(point.normal) > 0.0;
+                            course.medium = match crossing {
+                                Some(crossing) if passes => bodies.cross(&crossing),
+                                Some(_) => course.medium,
+                                None => self.beyond(&point, onwards, course.medium),
+                            };
+                            (shadowed, fate)
+                        }
                     }
                 }
             };

@@ -1,5 +1,6 @@
 //! Laws of the whole geometry, against brute force and closed forms.
 
+mod moving;
 mod sampling;
 mod spawning;
 mod traversal;

@@ -29,6 +29,9 @@ pub(super) fn group<'a>(
             Item::Surface(surface) if surface.radiance.is_some() => {
                 return Err(refused("emitters"));
             }
+            Item::Surface(surface) if surface.motion.is_some() => {
+                return Err(refused("shapes that move").help("let its instances move"));
+            }
             Item::Surface(surface) => surfaces.push(surface),
             Item::Group(_) | Item::Instance(..) => return Err(refused("groups or instances")),
         }
@@ -36,7 +39,7 @@ pub(super) fn group<'a>(
     Ok(Item::Group(surfaces))
 }
 
-/// One group, put somewhere by `to_world`.
+/// One group, put somewhere by `to_world`, which may be an animation.
 pub(super) fn instance<'a>(
     reader: &mut PluginReader<'a>,
     context: &mut Context<'a>,
@@ -44,6 +47,6 @@ pub(super) fn instance<'a>(
     let Some(child) = reader.child(Kind::Shape, context)? else {
         return Err(reader.error("shapegroup", "the instance has no shapegroup"));
     };
-    let to_world = reader.transform("to_world")?;
-    Ok(Item::Instance(group_of(context, child.node)?, to_world))
+    let placement = reader.placement("to_world", context)?;
+    Ok(Item::Instance(group_of(context, child.node)?, placement))
 }

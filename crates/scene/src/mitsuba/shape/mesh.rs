@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use super::super::Context;
 use super::super::reader::PluginReader;
 use super::Item;
-use super::surface::{refused, surface};
+use super::surface::{placed, refused, surface};
 use crate::SceneError;
 use crate::geometry::{MeshError, Shape, TriangleMesh};
 use crate::load::{
@@ -51,9 +51,9 @@ pub(super) fn cube<'a>(
     reader: &mut PluginReader<'a>,
     context: &mut Context<'a>,
 ) -> Result<Item, SceneError> {
-    let to_world = reader.transform("to_world")?;
+    let (to_world, motion) = placed(reader, context)?;
     let mesh = TriangleMesh::cube(&to_world).map_err(|e| refused(reader, e))?;
-    surface(reader, context, Shape::Mesh(mesh), "cube".into())
+    surface(reader, context, Shape::Mesh(mesh), motion, "cube".into())
 }
 
 fn path(reader: &mut PluginReader<'_>) -> Result<PathBuf, SceneError> {
@@ -83,12 +83,12 @@ fn mesh<'a>(
     })?;
     context.files.push(path);
     context.warnings.extend(file.warnings);
-    let to_world = reader.transform("to_world")?;
+    let (to_world, motion) = placed(reader, context)?;
     let is_flat = reader.boolean("face_normals", file.face_normals)?;
     let mesh = file.mesh.transformed(&to_world).and_then(|mesh| shaded(mesh, is_flat));
     let mesh = mesh.map_err(|e| refused(reader, e))?;
     let name: String = if file.name.is_empty() { reader.title() } else { file.name };
-    surface(reader, context, Shape::Mesh(mesh), name)
+    surface(reader, context, Shape::Mesh(mesh), motion, name)
 }
 
 /// The mesh without vertex normals where it is to look flat, and else with them.

@@ -14,7 +14,7 @@ use alloc::vec::Vec;
 use super::{Context, Family};
 use crate::SceneError;
 use crate::effect::Element;
-use crate::geometry::{GroupId, Shape, Transform};
+use crate::geometry::{GroupId, Motion, Placement, Shape};
 use crate::light::{AreaLight, Light, LightId};
 use crate::material::MaterialId;
 use crate::medium::Boundary;
@@ -37,18 +37,21 @@ const SHAPES: &Family<Item> = &[
 ];
 
 /// What a shape plugin stands for.
+#[expect(clippy::large_enum_variant, reason = "it is taken apart where it is made")]
 pub(super) enum Item {
     /// A shape of its own.
     Surface(Surface),
     /// Shapes that are seen only where an instance puts them.
     Group(Vec<Surface>),
     /// A group at a place.
-    Instance(GroupId, Transform),
+    Instance(GroupId, Placement),
 }
 
 /// A shape, what it is made of and what it emits.
 pub(super) struct Surface {
+    /// In the world, or in the space that moves.
     pub(super) shape: Shape,
+    pub(super) motion: Option<Motion>,
     pub(super) material: MaterialId,
     /// Of an area light.
     pub(super) radiance: Option<TextureId>,
@@ -62,7 +65,9 @@ pub(super) fn add(context: &mut Context<'_>, id: NodeId) -> Result<(), SceneErro
     if context.groups.contains_key(&id) {
         return Ok(());
     }
-    match context.translate(SHAPES, node)? {
+    let item = context.translate(SHAPES, node)?;
+    let moving = context.geometry.moving_count();
+    match item {
         Item::Surface(surface) => {
             if let Some(light) = add_surface(context, surface) {
                 context.origins.note(Element::Light(light), node);
@@ -72,18 +77,29 @@ pub(super) fn add(context: &mut Context<'_>, id: NodeId) -> Result<(), SceneErro
             let group = add_group(context, surfaces);
             context.groups.insert(id, group);
         }
-        Item::Instance(group, transform) => {
+        Item::Instance(group, placement) => {
             context.origins.note(Element::Instances, node);
-            context.geometry.add_instance(group, transform);
+            match placement {
+                Placement::Still(transform) => {
+                    context.geometry.add_instance(group, transform);
+                }
+                Placement::Moving(motion) => context.geometry.add_moving_instance(group, motion),
+            }
         }
+    }
+    if context.geometry.moving_count() > moving {
+        context.origins.note(Element::Moving(moving as u32), node);
     }
     Ok(())
 }
 
 /// Adds a shape that is seen where it stands, and the light that it is.
 pub(super) fn add_surface(context: &mut Context<'_>, surface: Surface) -> Option<LightId> {
-    let Surface { shape, material, radiance, boundary, name } = surface;
-    let shape = context.geometry.add_shape(shape);
+    let Surface { shape, motion, material, radiance, boundary, name } = surface;
+    let shape = match motion {
+        Some(motion) => context.geometry.add_moving_shape(shape, motion),
+        None => context.geometry.add_shape(shape),
+    };
     let light = radiance.map(|radiance| {
         context.lights.push(Light::Area(AreaLight { shape, radiance }));
         LightId(context.lights.len() as u32 - 1)

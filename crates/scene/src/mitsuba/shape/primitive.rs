@@ -5,7 +5,7 @@ use etendue_math::glam::DVec3;
 use super::super::Context;
 use super::super::reader::PluginReader;
 use super::Item;
-use super::surface::{refused, surface};
+use super::surface::{placed, refused, surface};
 use crate::SceneError;
 use crate::geometry::{Cylinder, Disk, Rectangle, Shape, Sphere};
 
@@ -16,9 +16,9 @@ pub(super) fn sphere<'a>(
 ) -> Result<Item, SceneError> {
     let center = reader.vector("center")?.unwrap_or(DVec3::ZERO);
     let radius = radius(reader)?;
-    let to_world = reader.transform("to_world")?;
+    let (to_world, motion) = placed(reader, context)?;
     let sphere = Sphere::new(center, radius, &to_world).map_err(|e| refused(reader, e))?;
-    surface(reader, context, Shape::Sphere(sphere), "sphere".into())
+    surface(reader, context, Shape::Sphere(sphere), motion, "sphere".into())
 }
 
 /// The square between −1 and 1 with normal +z: `flip_normals` (false), `to_world`.
@@ -26,9 +26,9 @@ pub(super) fn rectangle<'a>(
     reader: &mut PluginReader<'a>,
     context: &mut Context<'a>,
 ) -> Result<Item, SceneError> {
-    let to_world = reader.transform("to_world")?;
+    let (to_world, motion) = placed(reader, context)?;
     let rectangle = Rectangle::new(&to_world).map_err(|e| refused(reader, e))?;
-    surface(reader, context, Shape::Rectangle(rectangle), "rectangle".into())
+    surface(reader, context, Shape::Rectangle(rectangle), motion, "rectangle".into())
 }
 
 /// The unit disk with normal +z: `flip_normals` (false), `to_world`.
@@ -36,8 +36,8 @@ pub(super) fn disk<'a>(
     reader: &mut PluginReader<'a>,
     context: &mut Context<'a>,
 ) -> Result<Item, SceneError> {
-    let to_world = reader.transform("to_world")?;
-    surface(reader, context, Shape::Disk(Disk::new(&to_world)), "disk".into())
+    let (to_world, motion) = placed(reader, context)?;
+    surface(reader, context, Shape::Disk(Disk::new(&to_world)), motion, "disk".into())
 }
 
 /// The mantle of a cylinder: `p0` (origin), `p1` (0, 0, 1), `radius` (1), `flip_normals` (false),
@@ -49,9 +49,9 @@ pub(super) fn cylinder<'a>(
     let p0 = reader.vector("p0")?.unwrap_or(DVec3::ZERO);
     let p1 = reader.vector("p1")?.unwrap_or(DVec3::Z);
     let radius = radius(reader)?;
-    let to_world = reader.transform("to_world")?;
+    let (to_world, motion) = placed(reader, context)?;
     let cylinder = Cylinder::new(p0, p1, radius, &to_world).map_err(|e| refused(reader, e))?;
-    surface(reader, context, Shape::Cylinder(cylinder), "cylinder".into())
+    surface(reader, context, Shape::Cylinder(cylinder), motion, "cylinder".into())
 }
 
 fn radius(reader: &mut PluginReader<'_>) -> Result<f64, SceneError> {

@@ -4,14 +4,32 @@ use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
 
+use etendue_math::glam::DVec3;
+
 use super::super::reader::PluginReader;
 use super::super::{Context, bsdf, emitter, medium};
 use super::{Item, Surface};
 use crate::SceneError;
-use crate::geometry::{MeshAttribute, Shape, ShapeError};
+use crate::geometry::{Aabb, MeshAttribute, Motion, Placement, Shape, ShapeError, Transform};
 use crate::material::{Material, MaterialId};
 use crate::texture::Texture;
 use crate::xml::Kind;
+
+/// The space in which a shape is described, and how it moves: `to_world` of a shape that stands still.
+pub(super) fn placed(
+    reader: &mut PluginReader<'_>,
+    context: &mut Context<'_>,
+) -> Result<(Transform, Option<Motion>), SceneError> {
+    Ok(match reader.placement("to_world", context)? {
+        Placement::Still(to_world) => (to_world, None),
+        // Mirroring turns some shapes inside out, which it does not as a motion: it is part of the description.
+        Placement::Moving(motion) if motion.opening().is_mirrored() => {
+            let reflection = Transform::scale(DVec3::NEG_ONE);
+            (reflection.map_err(|e| refused(reader, e))?, Some(motion.reflected()))
+        }
+        Placement::Moving(motion) => (Transform::IDENTITY, Some(motion)),
+    })
+}
 
 /// A shape with the bsdf, the emitter and the media inside its plugin, turned inside out on request.
 ///
@@ -20,6 +38,7 @@ pub(super) fn surface<'a>(
     reader: &mut PluginReader<'a>,
     context: &mut Context<'a>,
     shape: Shape,
+    motion: Option<Motion>,
     name: String,
 ) -> Result<Item, SceneError> {
     let shape = if reader.boolean("flip_normals", false)? { shape.flipped() } else { shape };
@@ -30,6 +49,14 @@ pub(super) fn surface<'a>(
     let bsdf = reader.child(Kind::Bsdf, context)?;
     let emission = reader.child(Kind::Emitter, context)?;
     let radiance = emission.map(|child| emitter::radiance(context, child.node)).transpose()?;
+    if let Some(motion) = &motion {
+        check_motion(&shape, motion).map_err(|e| refused(reader, e))?;
+    }
+    if let (Some(_), Some(child)) = (&motion, emission) {
+        let message = "an emitter cannot move yet";
+        return Err(SceneError::scene(child.location.clone(), message)
+            .help("its shape must stand still while the shutter is open"));
+    }
     if radiance.is_some() && shape.area_total() == 0.0 {
         return Err(SceneError::scene(location.clone(), "a light needs an area, this has none"));
     }
@@ -43,7 +70,23 @@ pub(super) fn surface<'a>(
     };
     let shape = with_attributes_of(material, shape, reader, context)?;
     let name = reader.node().id.clone().unwrap_or(name);
-    Ok(Item::Surface(Surface { shape, material, radiance, boundary, name }))
+    Ok(Item::Surface(Surface { shape, motion, material, radiance, boundary, name }))
+}
+
+/// Refuses a motion that would make another kind of shape of it, or lead out of range.
+///
+/// What is a similarity at the ends of a part is one on the way: stretches are interpolated linearly.
+fn check_motion(shape: &Shape, motion: &Motion) -> Result<(), ShapeError> {
+    if !matches!(shape, Shape::Mesh(_)) {
+        for end in motion.ends() {
+            shape.clone().transformed(&end)?;
+        }
+    }
+    let Aabb { min, max } = motion.bounds(&shape.bounds());
+    if shape.area_total() > 0.0 && !(min.is_finite() && max.is_finite()) {
+        return Err(ShapeError::OutOfRange);
+    }
+    Ok(())
 }
 
 /// The shape with those attributes that its material looks up, and no others.

@@ -1,0 +1,41 @@
+//! Why a scene cannot be rendered here.
+
+use core::error::Error;
+use core::fmt::{Display, Formatter, Result};
+
+use crate::Configuration;
+
+/// Why a scene cannot be rendered by this program on this machine.
+#[derive(Debug)]
+pub enum RendererError {
+    /// The threads that a render needs could not be started.
+    Threads(rayon::ThreadPoolBuildError),
+    /// The program was compiled without what the scene calls for.
+    NotCompiled(Configuration),
+}
+
+impl Display for RendererError {
+    fn fmt(&self, f: &mut Formatter<'_>) -> Result {
+        match self {
+            Self::Threads(error) => {
+                write!(f, "the threads for rendering could not be started: {error}")
+            }
+            Self::NotCompiled(configuration) => {
+                let name = configuration.name();
+                write!(
+                    f,
+                    "this program was compiled without the feature “{name}” of etendue-renderer, which the scene calls for"
+                )
+            }
+        }
+    }
+}
+
+impl Error for RendererError {
+    fn source(&self) -> Option<&(dyn Error + 'static)> {
+        match self {
+            Self::Threads(error) => Some(error),
+            Self::NotCompiled(_) => None,
+        }
+    }
+}
