@@ -329,6 +329,18 @@ fn cameras_and_films_that_see_nothing_are_refused() {
         sensor("fov 0", 3, &["scene.xml:3:1", "“fov”"], &fov("0")),
         sensor("fov 180", 3, &["scene.xml:3:1", "“fov”", "180"], &fov("180")),
         sensor("fov NaN", 3, &["scene.xml:3:1", "“NaN”"], &fov("NaN")),
+        sensor(
+            "shutter closes early",
+            3,
+            &["scene.xml:4:1", "closes at 0.5, before it opens at 1"],
+            "<float name=\"shutter_open\" value=\"1\"/>\n<float name=\"shutter_close\" value=\"0.5\"/>",
+        ),
+        sensor(
+            "keyframes out of order",
+            3,
+            &["scene.xml:5:1", "increasing times, but 0.5 follows 1"],
+            "<animation name=\"to_world\">\n<transform time=\"1\"/>\n<transform time=\"0.5\"/></animation>",
+        ),
         sensor("up along the view", 3, &["scene.xml:4:1", "up"], &look_at("0 0 1")),
         sensor(
             "near clip beyond far clip",

@@ -24,6 +24,7 @@ const SCENES: &[(&str, f64, f64)] = &[
     ("depth-of-field", 0.0021, 0.0017),
     ("directional-light", 0.00025, 0.0006),
     ("dispersion", 0.16, 0.017),
+    ("emitter-in-medium", 0.0068, 0.0077),
     ("environment-map", 0.0031, 0.0024),
     ("heterogeneous-medium", 0.02, 0.011),
     ("hidden-emitters", 0.0021, 0.0035),
@@ -33,6 +34,7 @@ const SCENES: &[(&str, f64, f64)] = &[
     ("mesh-attribute", 0.026, 0.01),
     ("motion-blur", 0.0031, 0.0014),
     ("multiple-scattering", 0.016, 0.0097),
+    ("nested-dielectrics", 0.0145, 0.007),
     ("normal-map", 0.057, 0.011),
     ("opacity-mask", 0.015, 0.0028),
     ("pass-through", 0.0015, 0.0011),
@@ -41,9 +43,10 @@ const SCENES: &[(&str, f64, f64)] = &[
     ("projector", 0.00014, 0.0016),
     ("rough-reflection", 0.0018, 0.0034),
     ("rough-transmission", 0.0044, 0.0047),
-    ("spectral-colours", 0.0092, 0.011),
+    ("spectral-colours", 0.0069, 0.0072),
     ("spot-light", 0.00018, 0.00096),
     ("strict-normals", 0.0028, 0.0016),
+    ("subsurface", 0.034, 0.007),
     ("volume-texture", 0.0029, 0.0023),
 ];
 

@@ -21,7 +21,7 @@ const MUCH: &str = r#"<scene version="3.0.0">
         <boolean name="strict_normals" value="true"/>
     </integrator>
     <sensor type="thinlens">
-        <float name="aperture_radius" value="0.1"/>
+        <float name="aperture_radius" value="0.1"/> <float name="shutter_close" value="1"/>
     </sensor>
     <emitter type="constant"/>
     <emitter type="directional"/>
@@ -41,6 +41,9 @@ const MUCH: &str = r#"<scene version="3.0.0">
     <shape type="instance"><ref id="group"/></shape>
     <shape type="instance"><ref id="group"/></shape>
     <shape type="rectangle"><emitter type="area"/></shape>
+    <shape type="sphere"><animation name="to_world">
+        <transform time="0"/> <transform time="2"><translate x="1"/></transform>
+    </animation></shape>
 </scene>"#;
 
 /// A mirror and a chequered, half transparent ball under a lamp.
@@ -117,6 +120,7 @@ fn every_effect_names_the_element_that_calls_for_it() {
         ("checkerboard-texture", "texture “checkerboard” at scene.xml:13:5"),
         ("instancing", "shape “instance” at scene.xml:24:5 and 1 more"),
         ("depth-of-field", "sensor “thinlens” at scene.xml:6:5"),
+        ("motion-blur", "shape “sphere” at scene.xml:26:5"),
         ("hidden-emitters", "integrator “path” at scene.xml:2:5"),
         ("strict-normals", "integrator “path” at scene.xml:2:5"),
     ];
@@ -249,4 +253,55 @@ fn an_unknown_effect_is_refused_with_the_names_that_exist() {
     let outcome = folder.run(&["render", "scene.xml", "-o", "p.png", "--without", "ponit-light"]);
     assert_eq!(outcome.exit, Some(2), "{}", outcome.stderr);
     assert!(outcome.stderr.contains("'point-light'"), "{}", outcome.stderr);
+}
+
+/// Two balls under a lamp, seen through a shutter.
+fn seen_through(shutter: &str, place: &str) -> String {
+    format!(
+        r#"<scene version="3.0.0">
+    <sensor type="perspective">{shutter}
+        <transform name="to_world"><lookat origin="0, 0, 6" target="0, 0, 0" up="0, 1, 0"/></transform>
+    </sensor>
+    <emitter type="point"><point name="position" x="0" y="3" z="5"/></emitter>
+    <shape type="sphere"><point name="center" x="0.5" y="0" z="-1"/></shape>
+    <shape type="sphere"><float name="radius" value="0.8"/>{place}</shape>
+</scene>"#
+    )
+}
+
+#[test]
+fn what_stands_still_has_the_same_bits_however_long_the_shutter_is_open() {
+    let open = r#"<float name="shutter_open" value="0.5"/><float name="shutter_close" value="1"/>"#;
+    let animation = |x: f64| {
+        format!(
+            r#"<animation name="to_world">
+        <transform time="0"><translate x="-1"/></transform>
+        <transform time="0.5"><translate x="-0.5"/></transform>
+        <transform time="1"><translate x="{x}"/></transform>
+    </animation>"#
+        )
+    };
+    let still = r#"<transform name="to_world"><translate x="-0.5"/></transform>"#;
+    let expected = picture(&seen_through("", still), &[]);
+    assert_eq!(picture(&seen_through(open, still), &[]), expected);
+    // Until the shutter opens it moves, and then no more.
+    assert_eq!(picture(&seen_through(open, &animation(-0.5)), &[]), expected);
+    // Moving, and then told not to: where it is when the shutter opens.
+    let moving = seen_through(open, &animation(0.7));
+    assert_ne!(picture(&moving, &[]), expected);
+    assert_eq!(picture(&moving, &["--without", "motion-blur"]), expected);
+}
+
+#[test]
+fn the_summary_of_a_scene_says_what_moves() {
+    let folder = Folder::new();
+    folder.write("moving.xml", MUCH);
+    folder.write("still.xml", NOTHING);
+    for (scene, says) in [
+        ("moving.xml", "motion     1 of the shapes and instances\n"),
+        ("still.xml", "motion     none\n"),
+    ] {
+        let outcome = folder.run(&["info", scene]);
+        assert!(outcome.stdout.contains(says), "{}", outcome.stdout);
+    }
 }

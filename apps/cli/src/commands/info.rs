@@ -34,6 +34,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     println!("textures   {}", scene.textures.iter().count());
     println!("lights     {}", counted(scene.lights.iter().map(light_name)));
     println!("camera     {}", camera(scene));
+    println!("motion     {}", motion(scene));
     println!("film       {}", film(scene));
     println!("sampling   {}", sampling(scene));
     println!("paths      {}", paths(scene));
@@ -106,6 +107,17 @@ fn light_name(light: &Light) -> &'static str {
 
 fn camera(scene: &Scene) -> String {
     format!("{} at {}", scene.camera.name(), scene.camera.position())
+}
+
+/// What moves while the shutter is open.
+fn motion(scene: &Scene) -> String {
+    let shapes = match scene.geometry.moving_count() {
+        0 => None,
+        count => Some(format!("{count} of the shapes and instances")),
+    };
+    let camera = scene.camera.is_moving().then(|| "the camera".to_owned());
+    let moving: Vec<String> = shapes.into_iter().chain(camera).collect();
+    if moving.is_empty() { "none".to_owned() } else { moving.join(", ") }
 }
 
 fn film(scene: &Scene) -> String {

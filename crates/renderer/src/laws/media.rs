@@ -11,7 +11,8 @@ use etendue_scene::geometry::{Shape, Transform, TriangleMesh};
 use etendue_scene::light::{Light, PointLight, ProjectorLight, SpotLight};
 use etendue_scene::material::Material;
 use etendue_scene::medium::{
-    BlendPhase, Density, Extinction, GridFilter, Medium, Phase, TabulatedPhase, Volume, VolumeGrid,
+    BlendPhase, Density, Extinction, GridFilter, Medium, MediumCurves, Phase, TabulatedPhase,
+    Volume, VolumeGrid,
 };
 use etendue_scene::texture::Wrap;
 use etendue_scene::{Color, Scene};
@@ -46,6 +47,7 @@ fn homogeneous(sigma: [f32; 3], albedo: f32, phase: Phase) -> Medium {
         extinction: Extinction::Homogeneous(sigma.into()),
         albedo: Volume::constant(Color::splat(albedo)),
         phase,
+        curves: MediumCurves::default(),
         samples_lights: true,
     }
 }

@@ -2,12 +2,12 @@
 
 use core::sync::atomic::AtomicBool;
 
-use etendue_math::Spectrum;
 use etendue_math::glam::DVec3;
+use etendue_math::{Real, Spectrum};
 use etendue_sampling::{Decision, Dimension, Independent, Sampler};
 use etendue_scene::geometry::{Animation, Motion, Placement, Shape, Shutter, Transform};
 use etendue_scene::material::Material;
-use etendue_scene::medium::{Extinction, Medium, Phase, Volume};
+use etendue_scene::medium::{Extinction, Medium, MediumCurves, Phase, Volume};
 use etendue_scene::scene::SamplerKind;
 use etendue_scene::{Color, Scene};
 
@@ -25,8 +25,8 @@ fn turn(axis: DVec3, degrees: f64) -> Transform {
 }
 
 /// From one placement to another over the whole exposure.
-fn motion(start: Transform, end: Transform) -> Motion {
-    let animation = Animation::new(vec![(0.0, start), (1.0, end)]).expect("keyframes");
+fn motion(start: &Transform, end: &Transform) -> Motion {
+    let animation = Animation::new(vec![(0.0, *start), (1.0, *end)]).expect("keyframes");
     let exposure = Shutter::new(0.0, 1.0).expect("a shutter");
     match animation.during(exposure) {
         Placement::Moving(motion) => motion,
@@ -51,8 +51,8 @@ impl Mover {
     /// by one.
     fn motion(&self, time: Option<f64>) -> Motion {
         match time {
-            None => motion((self.at)(0.0), (self.at)(1.0)),
-            Some(time) => motion((self.at)(time), (self.at)(time + 1e-12)),
+            None => motion(&(self.at)(0.0), &(self.at)(1.0)),
+            Some(time) => motion(&(self.at)(time), &(self.at)(time + 1e-12)),
         }
     }
 }
@@ -123,6 +123,7 @@ fn fog(time: Option<f64>) -> Scene {
         extinction: Extinction::Homogeneous(Color::splat(sigma)),
         albedo: Volume::constant(Color::splat(0.8)),
         phase: Phase::Isotropic,
+        curves: MediumCurves::default(),
         samples_lights: true,
     };
     let thick = sketch.medium(medium(3.0));
@@ -211,7 +212,7 @@ fn a_board_that_passes_covers_a_point_for_its_share_of_the_exposure() {
         sketch.sky(1.0);
         let black = sketch.grey(0.0);
         let board = rectangle(ORIGIN, [0.5, 0.5], DVec3::Z);
-        sketch.moving(board, black, motion(shift(ORIGIN), shift(DVec3::X * 2.0)));
+        sketch.moving(board, black, motion(&shift(ORIGIN), &shift(DVec3::X * 2.0)));
         let mean = stratified(&seen_from_above(sketch, x));
         // 1024 strata of which the ends of the interval cut two; the pixel is 10⁻⁴ wide.
         assert!((mean - (1.0 - covered)).abs() < 2.0 / 1024.0 + 1e-4, "{x}: {mean}");
@@ -224,14 +225,14 @@ fn a_camera_that_turns_sees_a_board_for_its_share_of_the_angle() {
     let mut sketch = Sketch::default();
     sketch.sky(1.0);
     let black = sketch.grey(0.0);
-    let [left, right] = [-10.0_f64, 20.0].map(|degrees| 5.0 * degrees.to_radians().tan());
+    let [left, right] = [-10.0_f64, 20.0].map(|degrees| 5.0 * Real::tan(degrees.to_radians()));
     let centre = DVec3::new(0.0, 0.5 * (left + right), -5.0);
     sketch.shape(rectangle(centre, [0.5 * (right - left), 2.0], DVec3::Z), black);
     let mut scene = sketch.point_seen(ORIGIN, -DVec3::Z);
     let view = Transform::look_at(ORIGIN, -DVec3::Z, DVec3::X).expect("a view");
     // Turning about +x takes −z to +y.
     let seen = |degrees| turn(DVec3::X, degrees).compose(&view).expect("a view");
-    scene.camera = scene.camera.moving(motion(seen(-25.0), seen(75.0))).expect("a camera");
+    scene.camera = scene.camera.moving(motion(&seen(-25.0), &seen(75.0))).expect("a camera");
     let mean = stratified(&scene);
     // As above; an edge is a strip of 10⁻³ of the angle less than 10⁻³ ° wide.
     assert!((mean - 0.7).abs() < 2.0 / 1024.0 + 1e-4, "{mean}");
@@ -244,7 +245,7 @@ fn features_are_those_of_the_time_of_the_sample() {
     put(&mut sketch, 0.5, rectangle(ORIGIN, [9.0, 9.0], DVec3::Z));
     let mut scene = sketch.point_seen(DVec3::Z * 2.0, ORIGIN);
     let above = |z: f64| Transform::look_at(DVec3::Z * z, ORIGIN, DVec3::X).expect("a view");
-    scene.camera = scene.camera.moving(motion(above(2.0), above(4.0))).expect("a camera");
+    scene.camera = scene.camera.moving(motion(&above(2.0), &above(4.0))).expect("a camera");
     let sobol = RenderSettings { sampler: SamplerKind::Sobol, ..paths() };
     let renderer = Renderer::new(&scene, sobol).expect("a thread");
     let features = renderer.features(256, &AtomicBool::new(false));

@@ -2,9 +2,10 @@
 
 use etendue_brdf::fresnel::Dispersion;
 use etendue_math::glam::DVec3;
-use etendue_math::{Rgb, Spectrum};
+use etendue_math::{Real, Rgb, Spectrum};
+use etendue_scene::color::{Channels, Curve, Wavelengths};
 use etendue_scene::material::Material;
-use etendue_scene::medium::{Extinction, Medium, Phase, Volume};
+use etendue_scene::medium::{Extinction, Medium, MediumCurves, Phase, Volume};
 use etendue_scene::{Color, Scene};
 
 use super::scenes::{Estimate, Sketch, estimate, lamp_over_sphere, rectangle, settings, sphere};
@@ -125,12 +126,43 @@ fn the_leading_wavelength_and_an_even_choice_agree() {
 }
 
 #[test]
+fn a_slab_lets_each_wavelength_through_as_its_own_extinction_says() {
+    let mut sketch = Sketch::default();
+    let samples = Vec::from([(360.0, 2.0), (560.0, 0.2), (830.0, 1.5)]);
+    let curve = Curve::new(samples.clone());
+    let medium = sketch.medium(Medium {
+        extinction: Extinction::Homogeneous(Rgb::new(1.0, 0.3, 1.0)),
+        albedo: Volume::constant(Color::black()),
+        phase: Phase::Isotropic,
+        curves: MediumCurves { extinction: Some(curve), albedo: None },
+        samples_lights: true,
+    });
+    let nothing = sketch.material(Material::Null);
+    // Seen through its middle: two units of length.
+    sketch.filled(sphere(DVec3::ZERO, 1.0), nothing, medium);
+    sketch.sky(1.0);
+    let scene = sketch.point_seen(DVec3::new(0.0, -4.0, 0.0), DVec3::ZERO);
+    let mut settings = by_wavelength(None, Strategy::Mis);
+    settings.path.volumes = true;
+    // What the law of Beer and Lambert leaves of daylight, over all wavelengths.
+    let expected = (0..20_000_u16).map(|i| {
+        let channels = Wavelengths::of_number((f32::from(i) + 0.5) / 20_000.0);
+        let curve = Curve::new(samples.clone());
+        let sigma = channels.curve(&curve, Color::black());
+        let left = channels.light(Color::white()) * sigma.map(|sigma| Real::exp(-2.0 * sigma));
+        f64::from(channels.seen(left).r) / 20_000.0
+    });
+    estimate(&scene, settings, 200_000).assert_is(expected.sum());
+}
+
+#[test]
 fn a_medium_that_absorbs_nothing_is_invisible_in_glass_that_parts_colours() {
     let mut sketch = Sketch::default();
     let medium = sketch.medium(Medium {
         extinction: Extinction::Homogeneous(Rgb::new(0.5, 1.0, 3.0)),
         albedo: Volume::constant(Color::white()),
         phase: Phase::Isotropic,
+        curves: MediumCurves::default(),
         samples_lights: true,
     });
     let glass = sketch.interface(Some(Dispersion::from_abbe_number(1.5, 20.0)), None);

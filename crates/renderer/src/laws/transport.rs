@@ -6,7 +6,7 @@ use etendue_math::Spectrum;
 use etendue_math::glam::DVec3;
 use etendue_scene::film::Crop;
 use etendue_scene::material::Material;
-use etendue_scene::medium::{Extinction, Medium, Phase, Volume};
+use etendue_scene::medium::{Extinction, Medium, MediumCurves, Phase, Volume};
 use etendue_scene::scene::SamplerKind;
 use etendue_scene::{Color, LoadOptions, Scene, load_scene};
 
@@ -90,6 +90,7 @@ fn only_media_and_what_light_passes_call_for_the_configuration_of_volumes() {
             extinction: Extinction::Homogeneous(Color::white()),
             albedo: Volume::constant(Color::white()),
             phase: Phase::Isotropic,
+            curves: MediumCurves::default(),
             samples_lights: true,
         });
         sketch.filled(sphere(DVec3::ZERO, 1.0), grey, medium);

@@ -104,7 +104,22 @@ struct Vertex<'a, C: Channels> {
     ratios: C::Color,
 }
 
-impl<C: Channels> Vertex<'_, C> {
+impl<'a, C: Channels> Vertex<'a, C> {
+    #[inline(always)]
+    fn new(
+        depth: u16,
+        point: &'a SurfacePoint,
+        walk: &Walk<C>,
+        wo: Vec3,
+        bsdf: &'a PreparedBsdf<'a, C>,
+    ) -> Self {
+        let Walk { channels, ratios, .. } = *walk;
+        let normal = if wo.z < 0.0 { -point.shading.n } else { point.shading.n };
+        let sides = if bsdf.lobes().transmission { Sides::Both } else { Sides::Front };
+        let receiver = Receiver { position: point.position, normal, sides };
+        Self { depth, point, bsdf, wo, receiver, channels, ratios }
+    }
+
     fn dimension(&self, decision: Decision) -> Dimension {
         Dimension::vertex(self.depth, decision)
     }
@@ -253,7 +268,7 @@ impl<'a, 's, R: Rays, C: Channels> PathTracer<'a, 's, R, C> {
         let wo = point.shading.to_local(-walk.ray.direction);
         let material = self.scene.surfaces[point.shape.0 as usize].material;
         let bsdf = self.materials.at(material, point, Side::of(wo), walk.channels, varying);
-        self.vertex_of(depth, point, walk, wo, bsdf)
+        Vertex::new(depth, point, walk, wo, bsdf)
     }
 
     /// The same with an index outside of a body among others.
@@ -276,22 +291,6 @@ impl<'a, 's, R: Rays, C: Channels> PathTracer<'a, 's, R, C> {
             exterior,
             varying,
         );
-        self.vertex_of(depth, point, walk, wo, bsdf)
-    }
-
-    #[inline(always)]
-    fn vertex_of<'v>(
-        &'v self,
-        depth: u16,
-        point: &'v SurfacePoint,
-        walk: &Walk<C>,
-        wo: Vec3,
-        bsdf: &'v PreparedBsdf<'v, C>,
-    ) -> Vertex<'v, C> {
-        let Walk { channels, ratios, .. } = *walk;
-        let normal = if wo.z < 0.0 { -point.shading.n } else { point.shading.n };
-        let sides = if bsdf.lobes().transmission { Sides::Both } else { Sides::Front };
-        let receiver = Receiver { position: point.position, normal, sides };
-        Vertex { depth, point, bsdf, wo, receiver, channels, ratios }
+        Vertex::new(depth, point, walk, wo, bsdf)
     }
 }

@@ -289,6 +289,11 @@ impl Geometry {
         self.instances.len() + moving.count()
     }
 
+    /// Whether a shape moves by itself.
+    pub(crate) fn is_moving(&self, shape: ShapeId) -> bool {
+        self.moving.iter().any(|moving| moving.origin == Origin::Shape(shape))
+    }
+
     /// How many shapes and instances move while the shutter is open.
     pub fn moving_count(&self) -> usize {
         self.moving.len()

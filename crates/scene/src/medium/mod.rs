@@ -23,6 +23,7 @@ pub use phase::{BlendPhase, Phase, TabulatedPhase};
 pub use volume::{GridFilter, Volume};
 
 use crate::Color;
+use crate::color::{Channels, Curve};
 
 /// Names a medium of [`Media`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -43,11 +44,22 @@ pub struct Medium {
     pub extinction: Extinction,
     /// The share of it that is scattered; values above 1 count as 1.
     pub albedo: Volume,
+    /// What of these was given by wavelength.
+    pub curves: MediumCurves,
     /// Where it is scattered to.
     pub phase: Phase,
     /// Whether points of the medium look for lights. Without, light is found by scattering alone,
     /// which takes less time where refracting surfaces hide all lights.
     pub samples_lights: bool,
+}
+
+/// Properties of a medium as curves over the wavelengths; their colours stand beside them.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct MediumCurves {
+    /// Of an extinction that is the same everywhere.
+    pub extinction: Option<Curve>,
+    /// Of an albedo that is the same everywhere.
+    pub albedo: Option<Curve>,
 }
 
 /// Extinction σt per unit of length.
@@ -68,13 +80,16 @@ impl Medium {
     /// Whether extinction differs between the channels somewhere.
     pub fn is_coloured(&self) -> bool {
         match &self.extinction {
-            Extinction::Homogeneous(sigma) => !(sigma.r == sigma.g && sigma.g == sigma.b),
+            Extinction::Homogeneous(sigma) => {
+                self.curves.extinction.is_some() || !(sigma.r == sigma.g && sigma.g == sigma.b)
+            }
             Extinction::Heterogeneous(density) => density.is_coloured(),
         }
     }
 
     /// Takes as much of every colour: the mean of the channels.
     pub(crate) fn lose_colour(&mut self) {
+        self.curves.extinction = None;
         self.extinction = match core::mem::replace(&mut self.extinction, Extinction::NOTHING) {
             Extinction::Homogeneous(sigma) => Extinction::Homogeneous(Color::splat(sigma.mean())),
             Extinction::Heterogeneous(density) => {
@@ -83,10 +98,23 @@ impl Medium {
         };
     }
 
-    /// The share of light that is scattered at a point and not absorbed, in [0, 1].
+    /// An extinction of this medium, in the channels of a path.
     #[inline]
-    pub fn albedo_at(&self, position: Vec3) -> Color {
-        self.albedo.at(position).map(|albedo| albedo.min(1.0))
+    pub fn extinction_in<C: Channels>(&self, sigma: Color, channels: C) -> C::Color {
+        match (C::FIXED, &self.curves.extinction) {
+            (None, Some(curve)) => channels.curve(curve, sigma),
+            _ => channels.matter(sigma),
+        }
+    }
+
+    /// The share of light that is scattered at a point and not absorbed, in [0, 1], in the channels of a path.
+    #[inline]
+    pub fn albedo_at<C: Channels>(&self, position: Vec3, channels: C) -> C::Color {
+        let albedo = match (C::FIXED, &self.curves.albedo) {
+            (None, Some(curve)) => channels.curve(curve, self.albedo.at(position)),
+            _ => channels.matter(self.albedo.at(position)),
+        };
+        albedo.map(|albedo| albedo.min(1.0))
     }
 }
 

@@ -74,9 +74,23 @@ pub(super) fn color_or<'a>(
     role: Role,
     default: f32,
 ) -> Result<Color, SceneError> {
+    color_and_curve_or(reader, context, name, role, default).map(|(color, _)| color)
+}
+
+/// The same with the curve that the colour was given as, if it was.
+///
+/// # Errors
+/// As [`color_or`].
+pub(super) fn color_and_curve_or<'a>(
+    reader: &mut PluginReader<'a>,
+    context: &mut Context<'a>,
+    name: &'static str,
+    role: Role,
+    default: f32,
+) -> Result<(Color, Option<Curve>), SceneError> {
     let texture = texture_or(reader, context, name, role, default)?;
     match context.textures.get(texture) {
-        Some(Texture::Constant(color)) => Ok(*color),
+        Some(Texture::Constant(color)) => Ok((*color, context.textures.curve(texture).cloned())),
         _ => Err(reader.error(name, format!("“{name}” cannot vary over a surface"))),
     }
 }

@@ -22,6 +22,9 @@ pub enum InvalidScene {
     /// A shape and a light do not name each other.
     #[error("shape {0} and its area light do not refer to each other")]
     AreaLight(u32),
+    /// A shape that is an area light moves.
+    #[error("shape {0} is an area light, which cannot move yet")]
+    MovingLight(u32),
     /// A surface lies between media of which one does not exist.
     #[error("shape {0} bounds a medium that does not exist")]
     Medium(u32),
@@ -68,7 +71,11 @@ pub(super) fn check(parts: &mut SceneParts) -> Result<(), InvalidScene> {
         }
         if let Some(light) = surface.light {
             match lights.get(light.0 as usize) {
-                Some(Light::Area(light)) if light.shape == ShapeId(shape) => {}
+                Some(Light::Area(light)) if light.shape == ShapeId(shape) => {
+                    if geometry.is_moving(light.shape) {
+                        return Err(InvalidScene::MovingLight(shape));
+                    }
+                }
                 _ => return Err(InvalidScene::AreaLight(shape)),
             }
         }

@@ -3,7 +3,8 @@ use crate::Color;
 use crate::camera::{FieldOfView, FovAxis, Projection};
 use crate::color::Primaries;
 use crate::geometry::{
-    GeometryBuilder, Ray, Rectangle, Shape, ShapeId, Sphere, Transform, TriangleMesh,
+    Animation, GeometryBuilder, Placement, Ray, Rectangle, Shape, ShapeId, Shutter, Sphere,
+    Transform, TriangleMesh,
 };
 use crate::light::{
     AreaLight, ConstantLight, DirectionalLight, EnvironmentLight, LightError, LightSample,
@@ -277,6 +278,21 @@ fn parts_that_do_not_fit_are_refused() {
     let area = AreaLight { shape: ShapeId(3), radiance: TextureId(0) };
     let area = Light::Area(area);
     assert_eq!(refused(&|p| p.lights.push(area.clone())), Some(InvalidScene::AreaLight(3)));
+    let moving = |p: &mut SceneParts| {
+        let (start, end) = (Transform::IDENTITY, Transform::translate(DVec3::X).expect("a shift"));
+        let animation = Animation::new(vec![(0.0, start), (1.0, end)]).expect("keyframes");
+        let exposure = Shutter::new(0.0, 1.0).expect("a shutter");
+        let Placement::Moving(motion) = animation.during(exposure) else { panic!() };
+        let mut builder = GeometryBuilder::new();
+        let shape = builder.add_moving_shape(Shape::Sphere(sphere()), motion);
+        p.geometry = builder.build();
+        let radiance = white(&mut p.textures);
+        let reflectance = p.textures.constant(Color::black());
+        p.materials.add(Material::Diffuse { reflectance }).expect("a simple material");
+        p.surfaces.push(SurfaceInfo { light: Some(LightId(0)), ..info.clone() });
+        p.lights.push(Light::Area(AreaLight { shape, radiance }));
+    };
+    assert_eq!(refused(&moving), Some(InvalidScene::MovingLight(0)));
     let dark = DirectionalLight { direction: Vec3::ZERO, irradiance: Color::black() };
     assert_eq!(
         refused(&|p| p.lights.push(Light::Directional(dark))),

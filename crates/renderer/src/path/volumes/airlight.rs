@@ -147,7 +147,7 @@ impl<'s, R: Rays, C: Channels> PathTracer<'_, 's, R, C> {
         let other = beam.collision_density(distance)
             * self.lights.probability(&around(position), point.light, 0);
         let phase = medium.phase.eval(position, along, sample.direction);
-        let scattered = sigma * channels.matter(medium.albedo_at(position));
+        let scattered = sigma * medium.albedo_at(position, channels);
         let light = (scattered * beam.transmittance(distance) * sample.radiance)
             .scale(phase * mis::power(own, other) / own);
         let ray = Ray::between(position, sample.target?);

@@ -123,10 +123,10 @@ impl<R: Rays, C: Channels> PathTracer<'_, '_, R, C> {
                     (shadowed, self.scatter_in_medium(&collision, edges, &mut walk, points))
                 }
                 Event::Surface(point) => {
-                    throughput = walk.throughput;
                     let direction = walk.ray.direction;
                     let crossing =
                         if self.nests { self.crossing(&bodies, &point, direction) } else { None };
+                    throughput = walk.throughput;
                     if let Some(hidden) = crossing.as_ref().filter(|crossing| crossing.is_hidden) {
                         // Goes on as if there were no surface. Shadow rays end there.
                         course.medium = bodies.cross(hidden);
@@ -156,10 +156,13 @@ impl<R: Rays, C: Channels> PathTracer<'_, '_, R, C> {
                             };
                             let fate = self.scatter::<T, S>(&vertex, edges, &mut walk, points);
                             let onwards = walk.ray.direction;
-                            let passes =
-                                onwards.dot(point.normal) * direction.dot(point.normal) > 0.0;
                             course.medium = match crossing {
-                                Some(crossing) if passes => bodies.cross(&crossing),
+                                Some(crossing)
+                                    if onwards.dot(point.normal) * direction.dot(point.normal)
+                                        > 0.0 =>
+                                {
+                                    bodies.cross(&crossing)
+                                }
                                 Some(_) => course.medium,
                                 None => self.beyond(&point, onwards, course.medium),
                             };

@@ -86,7 +86,7 @@ impl<'s, R: Rays, C: Channels> PathTracer<'_, 's, R, C> {
                 share = share
                     * match &medium.extinction {
                         Extinction::Homogeneous(sigma) => {
-                            attenuation(channels.matter(*sigma), &part)
+                            attenuation(medium.extinction_in(*sigma, channels), &part)
                         }
                         Extinction::Heterogeneous(density) => {
                             let numbers = numbers.get_or_insert_with(|| {

@@ -54,18 +54,18 @@ impl<'s, R: Rays, C: Channels> PathTracer<'_, 's, R, C> {
         let mut thickness = None;
         let mut numbers = None;
         loop {
-            let extinction = course.medium.map(|medium| &medium.extinction);
+            let extinction = course.medium.map(|medium| (medium, &medium.extinction));
             let flight = match extinction {
-                Some(&Extinction::Homogeneous(sigma)) => {
+                Some((medium, &Extinction::Homogeneous(sigma))) => {
                     let thickness = *thickness.get_or_insert_with(|| {
                         let decision = Dimension::vertex(depth, Decision::Distance);
                         optical_thickness(points.sample_1d(decision))
                     });
-                    let sigma = walk.channels.matter(sigma);
+                    let sigma = medium.extinction_in(sigma, walk.channels);
                     let leading = || course.leading::<C, S>(points);
                     Some(Flight::new(sigma, thickness, &walk.ray, leading))
                 }
-                Some(Extinction::Heterogeneous(_)) | None => None,
+                Some((_, Extinction::Heterogeneous(_))) | None => None,
             };
             let t = flight.as_ref().map_or(f32::INFINITY, |flight| flight.t);
             let lit =
@@ -84,7 +84,7 @@ impl<'s, R: Rays, C: Channels> PathTracer<'_, 's, R, C> {
                     thickness = Some(flight.left(end));
                     collides.then(|| walk.ray.at(t))
                 }
-                (None, Some(Extinction::Heterogeneous(density))) => {
+                (None, Some((_, Extinction::Heterogeneous(density)))) => {
                     let numbers = numbers.get_or_insert_with(|| {
                         points.rng(Dimension::vertex(depth, Decision::Tracking))
                     });
@@ -97,8 +97,7 @@ impl<'s, R: Rays, C: Channels> PathTracer<'_, 's, R, C> {
                 (None, _) => None,
             };
             if let (Some(position), Some(medium)) = (collision, course.medium) {
-                walk.throughput =
-                    walk.throughput * walk.channels.matter(medium.albedo_at(position));
+                walk.throughput = walk.throughput * medium.albedo_at(position, walk.channels);
                 let along = walk.ray.direction.normalize_or_zero();
                 return Event::Collision(Collision { medium, position, along, depth });
             }

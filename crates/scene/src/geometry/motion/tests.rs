@@ -14,8 +14,8 @@ fn shutter(open: f64, close: f64) -> Shutter {
 }
 
 /// The motion from one placement to another over the whole exposure.
-fn motion(start: Transform, end: Transform) -> Motion {
-    let animation = Animation::new(vec![(0.0, start), (1.0, end)]).expect("an animation");
+fn motion(start: &Transform, end: &Transform) -> Motion {
+    let animation = Animation::new(vec![(0.0, *start), (1.0, *end)]).expect("an animation");
     match animation.during(shutter(0.0, 1.0)) {
         Placement::Moving(motion) => motion,
         Placement::Still(_) => panic!("it moves"),
@@ -40,10 +40,9 @@ fn random_map(random: &mut Random, mirrored: bool) -> Transform {
     loop {
         let columns = [0; 4].map(|_| random.point().as_dvec3() * 3.0);
         let [x, y, z, b] = columns;
-        if let Ok(map) = Transform::from_affine(DAffine3::from_cols(x, y, z, b)) {
-            if map.is_mirrored() == mirrored {
-                return map;
-            }
+        match Transform::from_affine(DAffine3::from_cols(x, y, z, b)) {
+            Ok(map) if map.is_mirrored() == mirrored => return map,
+            _ => {}
         }
     }
 }
@@ -78,7 +77,7 @@ fn rotations_turn_at_a_constant_rate_by_the_shorter_way() {
     let axis = DVec3::new(1.0, -2.0, 0.5);
     for degrees in [1e-9, 0.1, 45.0, 90.0, 179.9, 179.999] {
         for sign in [1.0, -1.0] {
-            let motion = motion(Transform::IDENTITY, turn(axis, sign * degrees));
+            let motion = motion(&Transform::IDENTITY, &turn(axis, sign * degrees));
             for u in [0.25_f32, 0.5, 0.875] {
                 let expected = turn(axis, sign * degrees * f64::from(u));
                 // The quaternion of a matrix has half its digits where the angle is close to 0 or to 180°.
@@ -87,7 +86,7 @@ fn rotations_turn_at_a_constant_rate_by_the_shorter_way() {
         }
     }
     // 190° is 170° the other way.
-    let motion = motion(Transform::IDENTITY, turn(axis, 190.0));
+    let motion = motion(&Transform::IDENTITY, &turn(axis, 190.0));
     assert!(distance(&motion.at(0.5), &turn(axis, -85.0)) < 1e-12);
 }
 
@@ -104,7 +103,7 @@ fn half_turns_go_anticlockwise_about_the_axis_with_a_positive_component() {
                 let animation = Animation::new(keyframes).expect("an animation");
                 assert_eq!(animation.half_turn(), Some(1));
                 let expected = product([turn(axis, 90.0), before]);
-                let half = motion(before, after).at(0.5);
+                let half = motion(&before, &after).at(0.5);
                 assert!(distance(&half, &expected) < 1e-9, "{axis} {degrees}");
             }
         }
@@ -119,7 +118,7 @@ fn points_far_from_the_origin_turn_about_the_axis_of_the_file() {
     // that goes with them, as in Mitsuba and pbrt.
     let far = DVec3::new(1e4, 0.0, 0.0);
     let around = |degrees| product([shift(far), turn(DVec3::Z, degrees), shift(-far)]);
-    let motion = motion(around(0.0), around(60.0));
+    let motion = motion(&around(0.0), &around(60.0));
     let half = motion.at(0.5);
     let (start, end) = (around(0.0).affine().translation, around(60.0).affine().translation);
     let expected = product([shift((start + end) * 0.5), turn(DVec3::Z, 30.0)]);
@@ -133,7 +132,7 @@ fn mirrored_keyframes_stay_mirrored_and_regular_on_the_way() {
     for i in 0..300 {
         let mirrored = i % 2 == 1;
         let [a, b] = [0; 2].map(|_| random_map(&mut random, mirrored));
-        let motion = motion(a, b);
+        let motion = motion(&a, &b);
         let least =
             [a, b].map(|m| m.affine().matrix3.determinant().abs()).into_iter().reduce(f64::min);
         for u in 0..=16 {
@@ -152,7 +151,7 @@ fn a_reflected_motion_is_the_motion_of_what_was_reflected() {
     let reflection = Transform::scale(DVec3::splat(-1.0)).expect("a reflection");
     for i in 0..50 {
         let [a, b] = [0; 2].map(|_| random_map(&mut random, i % 2 == 1));
-        let (motion, reflected) = (motion(a, b), motion(a, b).reflected());
+        let (motion, reflected) = (motion(&a, &b), motion(&a, &b).reflected());
         for u in [0.0, 0.3, 1.0] {
             // To the bit: signs are exact.
             let expected = product([motion.at(u), reflection]);
@@ -207,12 +206,12 @@ fn boxes_hold_what_moves_at_every_time() {
 #[test]
 fn the_box_of_a_translation_is_that_of_its_ends() {
     let unit = Aabb::from_points([Vec3::ZERO, Vec3::ONE]);
-    let bounds = motion(Transform::IDENTITY, shift(DVec3::new(3.0, 0.0, -2.0))).bounds(&unit);
+    let bounds = motion(&Transform::IDENTITY, &shift(DVec3::new(3.0, 0.0, -2.0))).bounds(&unit);
     let expected = Aabb { min: Vec3::new(0.0, 0.0, -2.0), max: Vec3::new(4.0, 1.0, 1.0) };
     // Margins for rounding: a few ε of the coordinates.
     assert!((bounds.min - expected.min).abs().max_element() < 1e-5, "{bounds:?}");
     assert!((bounds.max - expected.max).abs().max_element() < 1e-5, "{bounds:?}");
-    assert!(motion(Transform::IDENTITY, turn(DVec3::X, 10.0)).bounds(&Aabb::EMPTY).is_empty());
+    assert!(motion(&Transform::IDENTITY, &turn(DVec3::X, 10.0)).bounds(&Aabb::EMPTY).is_empty());
 }
 
 #[test]

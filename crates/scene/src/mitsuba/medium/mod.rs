@@ -7,11 +7,11 @@ use alloc::boxed::Box;
 use alloc::format;
 
 use super::reader::PluginReader;
-use super::value::{Role, color_or};
+use super::value::{Role, color_and_curve_or};
 use super::{Context, Family};
 use crate::SceneError;
 use crate::effect::Element;
-use crate::medium::{Boundary, Density, Extinction, Medium, MediumId, Phase, Volume};
+use crate::medium::{Boundary, Density, Extinction, Medium, MediumCurves, MediumId, Phase};
 use crate::xml::{Kind, NodeId};
 
 /// The media there are.
@@ -74,11 +74,14 @@ fn homogeneous<'a>(
         let message = "the “sigma_t” of a homogeneous medium cannot be a volume";
         return Err(reader.error("sigma_t", message).help("a heterogeneous medium may have one"));
     }
-    let sigma_t = color_or(reader, context, "sigma_t", Role::Material, 1.0)? * scale;
+    let (sigma_t, curve) = color_and_curve_or(reader, context, "sigma_t", Role::Material, 1.0)?;
+    let sigma_t = sigma_t * scale;
     if !sigma_t.to_array().iter().all(|sigma| sigma.is_finite()) {
         return Err(reader.error("scale", "“sigma_t” times “scale” is too large"));
     }
-    medium(reader, context, Extinction::Homogeneous(sigma_t))
+    let mut medium = medium(reader, context, Extinction::Homogeneous(sigma_t))?;
+    medium.curves.extinction = curve.map(|curve| curve.map(|sigma| sigma * f64::from(scale)));
+    Ok(medium)
 }
 
 /// `sigma_t` (volume, 1) and what all media have.
@@ -110,7 +113,9 @@ fn medium<'a>(
     context: &mut Context<'a>,
     extinction: Extinction,
 ) -> Result<Medium, SceneError> {
-    let albedo: Volume = volume::or(reader, context, "albedo", Role::Reflectance, 0.75)?;
+    let (albedo, curve) =
+        volume::with_curve_or(reader, context, "albedo", Role::Reflectance, 0.75)?;
+    let curves = MediumCurves { albedo: curve, ..MediumCurves::default() };
     let samples_lights = reader.boolean("sample_emitters", true)?;
     // Whether colours differ is seen from the values.
     reader.ignore(&["has_spectral_extinction"]);
@@ -118,5 +123,5 @@ fn medium<'a>(
         Some(child) => phase::translate(context, child.node)?,
         None => Phase::Isotropic,
     };
-    Ok(Medium { extinction, albedo, phase, samples_lights })
+    Ok(Medium { extinction, albedo, curves, phase, samples_lights })
 }

@@ -6,9 +6,10 @@ use alloc::string::String;
 use etendue_math::glam::{DAffine3, DVec3};
 
 use super::super::reader::PluginReader;
-use super::super::value::{Role, color_or};
+use super::super::value::{Role, color_and_curve_or, color_or};
 use super::super::{Context, Family};
 use crate::SceneError;
+use crate::color::Curve;
 use crate::geometry::{Aabb, Transform, TransformError};
 use crate::load::{VolumeFile, load_volume};
 use crate::medium::{GridFilter, Volume};
@@ -35,12 +36,28 @@ pub(in crate::mitsuba) fn or<'a>(
     role: Role,
     default: f32,
 ) -> Result<Volume, SceneError> {
+    with_curve_or(reader, context, name, role, default).map(|(volume, _)| volume)
+}
+
+/// The same with the curve of one that is the same everywhere, if it was given as such.
+///
+/// # Errors
+/// As [`or`].
+pub(super) fn with_curve_or<'a>(
+    reader: &mut PluginReader<'a>,
+    context: &mut Context<'a>,
+    name: &'static str,
+    role: Role,
+    default: f32,
+) -> Result<(Volume, Option<Curve>), SceneError> {
     if is_volume(reader, context, name)
         && let Some(child) = reader.named_child(name)
     {
-        return context.translate(VOLUMES, context.description.node(child.node));
+        let node = context.description.node(child.node);
+        return context.translate(VOLUMES, node).map(|volume| (volume, None));
     }
-    color_or(reader, context, name, role, default).map(Volume::constant)
+    let (color, curve) = color_and_curve_or(reader, context, name, role, default)?;
+    Ok((Volume::constant(color), curve))
 }
 
 /// `value` (colour, 1), `to_world`.

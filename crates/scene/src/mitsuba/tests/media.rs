@@ -1,6 +1,8 @@
 //! Participating media.
 
 use super::*;
+use crate::color::Primaries;
+use crate::medium::MediumCurves;
 
 #[test]
 fn media_have_mitsubas_defaults_and_are_translated_once() {
@@ -29,15 +31,31 @@ fn media_have_mitsubas_defaults_and_are_translated_once() {
     assert!(
         matches!(fog.extinction, Extinction::Homogeneous(sigma) if sigma.to_array() == [1.0; 3])
     );
-    assert_eq!(fog.albedo_at(Vec3::ZERO).to_array(), [0.75; 3]);
+    assert_eq!(fog.albedo_at(Vec3::ZERO, Primaries).to_array(), [0.75; 3]);
     assert!(fog.phase.is_isotropic() && fog.samples_lights && !fog.is_coloured());
     let Extinction::Heterogeneous(density) = &cloud.extinction else { panic!("{cloud:?}") };
     assert_eq!(density.at(Vec3::splat(0.5)).to_array(), [2.0, 4.0, 6.0]);
     assert!(matches!(cloud.phase, Phase::HenyeyGreenstein(lobe) if lobe.mean_cosine() == 0.8));
     assert!(!cloud.samples_lights && cloud.is_coloured());
     // Albedos are reflectances: at most 1, with a warning.
-    assert_eq!(cloud.albedo_at(Vec3::ZERO).to_array(), [0.5, 1.0, 0.0]);
+    assert_eq!(cloud.albedo_at(Vec3::ZERO, Primaries).to_array(), [0.5, 1.0, 0.0]);
     assert!(loaded.warnings.iter().any(|w| w.to_string().contains("clamped to [0, 1]")));
+}
+
+#[test]
+fn media_keep_the_curves_of_their_spectra() {
+    let loaded = load(
+        "<shape type=\"sphere\"><medium type=\"homogeneous\" name=\"interior\">
+            <spectrum name=\"sigma_t\" value=\"400:4, 700:1\"/><float name=\"scale\" value=\"2\"/>
+            <spectrum name=\"albedo\" value=\"400:0.5, 700:1\"/></medium></shape>",
+    )
+    .expect("a medium");
+    let medium = loaded.scene.media.get(MediumId(0)).expect("a medium");
+    let MediumCurves { extinction: Some(extinction), albedo: Some(albedo) } = &medium.curves else {
+        panic!("{:?}", medium.curves)
+    };
+    assert_eq!((extinction.at(550.0), albedo.at(550.0)), (5.0, 0.75));
+    assert!(medium.is_coloured());
 }
 
 #[test]
