@@ -135,7 +135,9 @@ impl SpotLight {
         let form = |p: Vec3, q: Vec3| p.z * q.z - square * Vector3::dot(p, q);
         let (a, b, c) = (form(d, d), form(o, d), form(o, o));
         let discriminant = b * b - a * c;
-        if !(discriminant > 0.0) {
+        // False for NaN, too.
+        let crosses = discriminant > 0.0;
+        if !crosses {
             return None;
         }
         let sum = -(b + Real::copysign(Real::sqrt(discriminant), b));
