@@ -66,6 +66,23 @@ impl Light {
         }
     }
 
+    /// A stretch of a ray, from one distance to another, beyond which light of a single point lights none of it; `None` where
+    /// it lights nothing of it. Of other lights the whole ray.
+    ///
+    /// * `along`: a unit vector.
+    /// * `length`: may be infinite.
+    ///
+    /// Both ends are rounded.
+    pub fn lit_stretch(&self, origin: Vec3, along: Vec3, length: f32) -> Option<[f32; 2]> {
+        let [start, end] = match self {
+            Self::Spot(light) => light.lit_line(origin, along)?,
+            Self::Projector(light) => light.lit_line(origin, along),
+            _ => [0.0, length],
+        };
+        let (start, end) = (start.max(0.0), end.min(length));
+        (start < end).then_some([start, end])
+    }
+
     /// The texture of its radiance, intensity or irradiance; the map of an environment belongs to the light itself.
     pub fn texture(&self) -> Option<TextureId> {
         match self {
@@ -120,3 +137,6 @@ pub enum LightError {
 fn is_emission(color: Color) -> bool {
     color.to_array().iter().all(|c| c.is_finite() && *c >= 0.0)
 }
+
+#[cfg(test)]
+mod tests;

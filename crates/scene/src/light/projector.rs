@@ -131,6 +131,26 @@ impl ProjectorLight {
         textures.color(self.irradiance, [u, v]) * (self.pi_scale() / (local.z * local.z * facing))
     }
 
+    /// From where to where a line lies within the four planes through the edges of the picture; the end is before the
+    /// start where it does not.
+    pub(crate) fn lit_line(&self, origin: Vec3, along: Vec3) -> [f32; 2] {
+        let (o, d) = (self.transform.inverse_point(origin), self.transform.inverse_vector(along));
+        let [w, h] = self.half_extent;
+        let inwards = |v: Vec3| [w * v.z - v.x, w * v.z + v.x, h * v.z - v.y, h * v.z + v.y];
+        let mut line = [f32::NEG_INFINITY, f32::INFINITY];
+        for (height, slope) in inwards(o).into_iter().zip(inwards(d)) {
+            let at = -height / slope;
+            if slope > 0.0 {
+                line[0] = line[0].max(at);
+            } else if slope < 0.0 {
+                line[1] = line[1].min(at);
+            } else if height < 0.0 {
+                line[1] = f32::NEG_INFINITY;
+            }
+        }
+        line
+    }
+
     /// Power in W, with the mean of the picture in place of the picture.
     ///
     /// ```text

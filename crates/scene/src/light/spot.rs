@@ -123,6 +123,35 @@ impl SpotLight {
         intensity * textures.color(texture, [0.5 + local.x * scale, 0.5 + local.y * scale])
     }
 
+    /// From where to where a line lies within the cone: the roots of a quadratic form that vanishes on it; the whole line
+    /// where the cone is wider than a half space.
+    pub(crate) fn lit_line(&self, origin: Vec3, along: Vec3) -> Option<[f32; 2]> {
+        let whole = [f32::NEG_INFINITY, f32::INFINITY];
+        if self.cos_cutoff <= 0.0 {
+            return Some(whole);
+        }
+        let (o, d) = (self.transform.inverse_point(origin), self.transform.inverse_vector(along));
+        let square = self.cos_cutoff * self.cos_cutoff;
+        let form = |p: Vec3, q: Vec3| p.z * q.z - square * Vector3::dot(p, q);
+        let (a, b, c) = (form(d, d), form(o, d), form(o, o));
+        let discriminant = b * b - a * c;
+        // False for NaN, too.
+        let crosses = discriminant > 0.0;
+        if !crosses {
+            return None;
+        }
+        let sum = -(b + Real::copysign(Real::sqrt(discriminant), b));
+        let (one, other) = (sum / a, c / sum);
+        let (first, last) = (one.min(other), one.max(other));
+        // Of a line that is flatter than the cone both ends lie on the same half of it, of a steeper one on either.
+        let in_front = o.z + d.z * 0.5 * (first + last) > 0.0;
+        match (a < 0.0, d.z > 0.0) {
+            (true, _) => in_front.then_some([first, last]),
+            (false, true) => Some([last, f32::INFINITY]),
+            (false, false) => Some([f32::NEG_INFINITY, first]),
+        }
+    }
+
     /// Power in W, with the mean of the texture in place of the texture.
     ///
     /// ```text

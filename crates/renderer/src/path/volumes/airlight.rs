@@ -4,6 +4,7 @@ use etendue_math::glam::Vec3;
 use etendue_math::{Real, Spectrum};
 use etendue_sampling::warp::equiangular::Equiangular;
 use etendue_sampling::{Decision, Dimension, Sampler, mis};
+use etendue_scene::Scene;
 use etendue_scene::color::Channels;
 use etendue_scene::geometry::{Ray, Rays};
 use etendue_scene::light::LightId;
@@ -65,9 +66,34 @@ impl<'s, C: Channels> Beam<'s, C> {
         self.sigma.map(|sigma| Real::exp(-sigma * distance))
     }
 
+    /// Distances about a light, on what it lights of the beam.
     #[inline]
-    fn about(&self, light: PointLight) -> Option<Equiangular<f32>> {
-        Equiangular::new(light.position - self.origin, self.along, self.length)
+    fn about(&self, scene: &Scene, point: PointLight) -> Option<About> {
+        let light = scene.lights.get(point.light.0 as usize)?;
+        let [start, end] = light.lit_stretch(self.origin, self.along, self.length)?;
+        let to_light = point.position - (self.origin + self.along * start);
+        let distances = Equiangular::new(to_light, self.along, end - start)?;
+        Some(About { start, distances })
+    }
+}
+
+/// Distances along a beam, drawn about a light.
+struct About {
+    /// Where it begins to light the beam.
+    start: f32,
+    /// From there.
+    distances: Equiangular<f32>,
+}
+
+impl About {
+    #[inline]
+    fn distance(&self, u: f32) -> f32 {
+        self.start + self.distances.from_unit(u)
+    }
+
+    #[inline]
+    fn density(&self, distance: f32) -> f32 {
+        self.distances.pdf(distance - self.start)
     }
 }
 
@@ -87,11 +113,11 @@ impl<'s, R: Rays, C: Channels> PathTracer<'_, 's, R, C> {
         light: LightId,
         probability: f32,
     ) -> f32 {
-        let about = |point| Some((point, beam.about(point)?));
+        let about = |point| Some((point, beam.about(self.scene, point)?));
         let Some((point, about)) = self.point_lights.get(light).and_then(about) else { return 1.0 };
         let distance = position.distance(beam.origin);
         let own = beam.collision_density(distance) * probability;
-        mis::power(own, point.probability * about.pdf(distance))
+        mis::power(own, point.probability * about.density(distance))
     }
 
     /// Light that the beam scatters towards its origin from a point near one of the lights, and the throughput there, if
@@ -108,12 +134,16 @@ impl<'s, R: Rays, C: Channels> PathTracer<'_, 's, R, C> {
     ) -> Option<(C::Color, Shadowed<'s, C>)> {
         let [u, v] = points.sample_2d(Dimension::vertex(depth, Decision::Airlight));
         let point = self.point_lights.choose(u)?;
-        let about = beam.about(point)?;
-        let distance = about.from_unit(v);
+        let about = beam.about(self.scene, point)?;
+        let distance = about.distance(v);
         let position = beam.origin + beam.along * distance;
         let sample = self.scene.sample_light(point.light, 0, position, [0.0; 2], channels)?;
         let Beam { medium, sigma, along, .. } = *beam;
-        let own = point.probability * about.pdf(distance);
+        let own = point.probability * about.density(distance);
+        // Rounded over an end.
+        if own == 0.0 {
+            return None;
+        }
         let other = beam.collision_density(distance)
             * self.lights.probability(&around(position), point.light, 0);
         let phase = medium.phase.eval(position, along, sample.direction);

@@ -72,7 +72,8 @@ impl<R: Rays, C: Channels> PathTracer<'_, '_, R, C> {
     /// ```
     ///
     /// The distance to the next collision is drawn in proportion to T σt of one channel; where
-    /// channels differ, as if from the mixture of all three. Edges count as in Mitsuba 3's `volpath`:
+    /// channels differ, as if from the mixture of all three; light of single points is looked for near to them as well, by a
+    /// [`Beam`](airlight::Beam). Edges count as in Mitsuba 3's `volpath`:
     /// a collision is a vertex, a surface that light passes straight on is none, though it has
     /// random numbers of its own.
     ///
