@@ -40,7 +40,7 @@ pub struct SurfaceInfo {
 pub struct SceneParts {
     /// Shapes.
     pub geometry: Geometry,
-    /// One entry per shape, in the order of [`ShapeId`](crate::geometry::ShapeId).
+    /// One entry per shape, in the order of [`ShapeId`].
     pub surfaces: Vec<SurfaceInfo>,
     /// Materials.
     pub materials: Materials,
@@ -67,7 +67,7 @@ pub struct SceneParts {
 pub struct Scene {
     /// Shapes.
     pub geometry: Geometry,
-    /// One entry per shape, in the order of [`ShapeId`](crate::geometry::ShapeId).
+    /// One entry per shape, in the order of [`ShapeId`].
     pub surfaces: Vec<SurfaceInfo>,
     /// Materials.
     pub materials: Materials,
