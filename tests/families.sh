@@ -12,4 +12,4 @@ export RUSTFLAGS="-D warnings"
 cargo hack check --package etendue-brdf --feature-powerset ${1:+--depth "$1"} \
   --features libm --exclude-features default,std,arch,alloc,serde,models
 cargo hack check --package etendue-scene --package etendue-renderer --each-feature \
-  --features std --exclude-features default,std,arch,libm
+  --features libm --exclude-features default,std,arch

@@ -7,7 +7,6 @@ extern crate alloc;
 extern crate std;
 
 pub mod camera;
-#[cfg(feature = "std")]
 pub mod color;
 pub mod effect;
 pub mod film;

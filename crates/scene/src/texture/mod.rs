@@ -296,7 +296,7 @@ impl Textures {
     }
 
     /// Columns and rows of a bitmap; 1 × 1 of every other texture.
-    pub(crate) fn size(&self, id: TextureId) -> [u32; 2] {
+    pub fn size(&self, id: TextureId) -> [u32; 2] {
         match self.get(id) {
             Some(Texture::Bitmap(bitmap)) => [bitmap.image().width(), bitmap.image().height()],
             _ => [1, 1],
