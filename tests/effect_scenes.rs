@@ -47,6 +47,7 @@ const SCENES: &[(&str, f64, f64)] = &[
     ("spot-light", 0.00018, 0.00096),
     ("strict-normals", 0.0028, 0.0016),
     ("subsurface", 0.034, 0.007),
+    ("texture-filtering", 0.0038, 0.0012),
     ("volume-texture", 0.0029, 0.0023),
 ];
 
