@@ -225,7 +225,7 @@ fn compensation_without_tables_is_refused() {
             "<bsdf type=\"{plugin}\">\n<string name=\"multiple_scattering\" value=\"{parameters}</bsdf>"
         )
     };
-    let says: &[&str] = &["scene.xml:6:1", "“multiple_scattering”"];
+    let says: &[&str] = &["scene.xml:6:1", "multiple_scattering"];
     check([
         material("unknown", 3, says, &rough("roughconductor", "heitz\"/>")),
         material("Walter's fit", 3, says, &rough("roughconductor", "turquin\"/>")),
@@ -241,7 +241,7 @@ fn compensation_without_tables_is_refused() {
         material(
             "Turquin's glass",
             3,
-            &["scene.xml:6:1", "“multiple_scattering”", "kulla-conty"],
+            &["scene.xml:6:1", "“turquin”", "kulla-conty"],
             &rough("roughdielectric", "turquin\"/><string name=\"distribution\" value=\"ggx\"/>"),
         ),
         material(
@@ -265,7 +265,7 @@ fn dispersion_that_is_no_index_is_refused() {
         material(
             "misspelt glass",
             3,
-            &["scene.xml:5:", "“N-SF1”", "N-SF11"],
+            &["scene.xml:5:", "“N-SF1”", "did you mean “N-SF10”"],
             &string("glass", "N-SF1"),
         ),
         material("glass and index", 3, &["scene.xml:5:", "“glass” or “int_ior”"], &glass(both)),

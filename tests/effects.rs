@@ -120,7 +120,7 @@ fn every_effect_names_the_element_that_calls_for_it() {
         ("checkerboard-texture", "texture “checkerboard” at scene.xml:13:5"),
         ("instancing", "shape “instance” at scene.xml:24:5 and 1 more"),
         ("depth-of-field", "sensor “thinlens” at scene.xml:6:5"),
-        ("motion-blur", "shape “sphere” at scene.xml:26:5"),
+        ("motion-blur", "shape “sphere” at scene.xml:27:5"),
         ("hidden-emitters", "integrator “path” at scene.xml:2:5"),
         ("strict-normals", "integrator “path” at scene.xml:2:5"),
     ];

@@ -7,6 +7,7 @@
 mod absorption;
 mod artistic;
 mod averages;
+mod dispersion;
 mod f82;
 mod layers;
 mod loss_tables;
@@ -45,6 +46,7 @@ pub const CLOSED_FORMS: &[ClosedForm] = &[
     absorption::CASE,
     radiometry::CASE,
     slabs::SERIES,
+    dispersion::ANGLES,
     warps::JACOBIAN,
     warps::ROUND_TRIP,
     loss_tables::INTEGRAL,
