@@ -57,6 +57,11 @@ impl<T: Real, const N: usize> Spectrum for Sampled<T, N> {
     fn zip(self, other: Self, mut f: impl FnMut(T, T) -> T) -> Self {
         Self(from_fn(|i| f(self.0[i], other.0[i])))
     }
+    #[inline(always)]
+    fn map_to_pair(self, f: impl FnMut(T) -> (T, T)) -> (Self, Self) {
+        let pairs = self.0.map(f);
+        (Self(pairs.map(|pair| pair.0)), Self(pairs.map(|pair| pair.1)))
+    }
     /// The mean: which wavelengths are the bright ones is not known here.
     #[inline(always)]
     fn luminance(self) -> T {
@@ -84,6 +89,9 @@ mod tests {
         let a = Sampled([1.0_f32, 2.0, 4.0, 9.0]);
         assert_eq!((a.max_channel(), a.mean(), a.luminance()), (9.0, 4.0, 4.0));
         assert_eq!((a.channel(1), a.channel(7)), (2.0, 9.0));
+        assert_eq!(a.map_to_pair(|x| (x, 2.0 * x)), (a, a + a));
+        let rgb = crate::Rgb::new(1.0_f64, 2.0, 4.0);
+        assert_eq!(rgb.map_to_pair(|x| (x, 2.0 * x)), (rgb, rgb + rgb));
         assert!(Sampled::<f32, 4>::black().is_black() && !a.is_black());
         assert!(!Sampled([1.0_f32, f32::NAN, 0.0, 0.0]).is_finite());
     }

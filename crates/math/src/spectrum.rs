@@ -37,6 +37,9 @@ pub trait Spectrum:
     /// A function applied to every pair of channels.
     fn zip(self, other: Self, f: impl FnMut(Self::Real, Self::Real) -> Self::Real) -> Self;
 
+    /// A function with two results applied to every channel.
+    fn map_to_pair(self, f: impl FnMut(Self::Real) -> (Self::Real, Self::Real)) -> (Self, Self);
+
     /// Every channel multiplied by `x`.
     #[inline(always)]
     fn scale(self, x: Self::Real) -> Self {
@@ -100,6 +103,10 @@ macro_rules! scalar_spectrum {
                 f(self, other)
             }
             #[inline(always)]
+            fn map_to_pair(self, mut f: impl FnMut($float) -> ($float, $float)) -> (Self, Self) {
+                f(self)
+            }
+            #[inline(always)]
             fn luminance(self) -> $float {
                 self
             }
@@ -133,6 +140,11 @@ impl<T: Real> Spectrum for Rgb<T> {
     #[inline(always)]
     fn zip(self, other: Self, mut f: impl FnMut(T, T) -> T) -> Self {
         Self { r: f(self.r, other.r), g: f(self.g, other.g), b: f(self.b, other.b) }
+    }
+    #[inline(always)]
+    fn map_to_pair(self, mut f: impl FnMut(T) -> (T, T)) -> (Self, Self) {
+        let (r, g, b) = (f(self.r), f(self.g), f(self.b));
+        (Self { r: r.0, g: g.0, b: b.0 }, Self { r: r.1, g: g.1, b: b.1 })
     }
     #[inline(always)]
     fn luminance(self) -> T {

@@ -2,9 +2,10 @@
 
 use etendue_sampling::{Independent, Sampler, Sobol};
 use etendue_scene::Scene;
+use etendue_scene::color::{Primaries, Wavelengths};
 use etendue_scene::scene::SamplerKind;
 
-use crate::path::{Spectral, Surfaces, Transport, Volumes};
+use crate::path::{Surfaces, Transport, Volumes};
 use crate::render::Renderer;
 use crate::settings::RenderSettings;
 
@@ -87,8 +88,12 @@ impl Renderer<'_> {
     fn configured_with<S: Sampler, C: Configured>(&self, work: C) -> C::Output {
         match self.configuration {
             // The conditions are known to the compiler, which leaves out what is not asked for.
-            Configuration::Volumes if cfg!(feature = "volumes") => work.run::<S, Volumes>(),
-            Configuration::Spectral if cfg!(feature = "spectral") => work.run::<S, Spectral>(),
+            Configuration::Volumes if cfg!(feature = "volumes") => {
+                work.run::<S, Volumes<Primaries>>()
+            }
+            Configuration::Spectral if cfg!(feature = "spectral") => {
+                work.run::<S, Volumes<Wavelengths>>()
+            }
             _ => work.run::<S, Surfaces>(),
         }
     }

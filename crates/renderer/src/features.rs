@@ -7,10 +7,11 @@ use std::sync::{Mutex, PoisonError};
 use etendue_math::glam::{DVec2, DVec3};
 use etendue_sampling::{Independent, Sampler, Sobol};
 use etendue_scene::Color;
+use etendue_scene::color::Primaries;
 use etendue_scene::geometry::{Rays, Task};
 use etendue_scene::scene::SamplerKind;
 
-use crate::path::{FirstHit, Surfaces};
+use crate::path::FirstHit;
 use crate::render::Renderer;
 use crate::tile::Tile;
 
@@ -102,7 +103,7 @@ impl<S: Sampler> Task for TileFeatures<'_, '_, S> {
     #[inline(always)]
     fn run<R: Rays>(self, rays: R) -> Vec<Features> {
         let Self { renderer, tile, samples, .. } = self;
-        let tracer = renderer.tracer::<Surfaces, R>(rays);
+        let tracer = renderer.tracer::<Primaries, R>(rays);
         let mut features = Vec::new();
         for pixel in tile.pixels() {
             let filter = renderer.filter.pixel(pixel);

@@ -12,7 +12,7 @@ use etendue_scene::{Color, Scene};
 use crate::configuration::{Configuration, Configured};
 use crate::film::{FilterSampler, Image, PixelFilter, PixelSum};
 use crate::light_sampler::{LightSampler, PointLights};
-use crate::path::{PathTracer, Prepared, Transport};
+use crate::path::{Carried, PathTracer, Prepared, Transport};
 use crate::renderer_error::RendererError;
 use crate::settings::{Airlight, RenderSettings};
 use crate::statistics::{RayCounts, SampleAddress, Statistics};
@@ -179,12 +179,9 @@ impl<'a> Renderer<'a> {
         });
     }
 
-    pub(crate) fn tracer<T: Transport, R: Rays>(
-        &self,
-        rays: R,
-    ) -> PathTracer<'_, 'a, R, T::Channels> {
+    pub(crate) fn tracer<C: Carried, R: Rays>(&self, rays: R) -> PathTracer<'_, 'a, R, C> {
         let RenderSettings { path, strategy, .. } = self.settings;
-        let materials = T::materials(&self.materials);
+        let materials = C::materials(&self.materials);
         PathTracer::new(
             rays,
             self.scene,
@@ -274,7 +271,7 @@ impl Configured for OneSample<'_, '_> {
         let Self { renderer, pixel, index } = self;
         let points = S::at(renderer.settings.seed, pixel, index);
         let filter = renderer.filter.pixel(pixel);
-        let tracer = renderer.tracer::<T, _>(renderer.scene.geometry.at(0.0));
+        let tracer = renderer.tracer::<T::Channels, _>(renderer.scene.geometry.at(0.0));
         renderer.path_sample::<S, T, _>(&tracer, &filter, &points, &mut RayCounts::default())
     }
 }
@@ -307,7 +304,7 @@ impl<S: Sampler, T: Transport> Task for RenderTile<'_, '_, S, T> {
 
     #[inline(always)]
     fn run<R: Rays>(self, rays: R) -> (Vec<Color>, Statistics) {
-        let tracer = self.renderer.tracer::<T, R>(rays);
+        let tracer = self.renderer.tracer::<T::Channels, R>(rays);
         let mut statistics = Statistics::default();
         let mut pixels = Vec::new();
         for pixel in self.tile.pixels() {

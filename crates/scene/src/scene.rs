@@ -175,10 +175,7 @@ impl Scene {
     /// The body among others whose surface a shape is, if it is one.
     #[inline]
     pub fn nesting(&self, shape: ShapeId) -> Option<Nesting> {
-        match self.materials.get(self.surfaces[shape.0 as usize].material) {
-            Some(&Material::Dielectric { nesting, .. }) => nesting,
-            _ => None,
-        }
+        self.materials.get(self.surfaces[shape.0 as usize].material)?.nesting()
     }
 
     /// A point that the geometry has given, as [`prepare`](Self::prepare) takes it.

@@ -28,7 +28,7 @@ impl<R: Rays> PathTracer<'_, '_, R, Primaries> {
         let mut walk = Walk::from_camera(camera_ray, Primaries);
         let point = self.next_surface(&mut walk, &mut RayCounts::default())?;
         let mut varying = Varying::default();
-        let vertex = self.vertex(1, &point, &walk, &mut varying);
+        let vertex = self.vertex(1, &point, &walk, None, &mut varying);
         let albedo = vertex.bsdf.albedo(vertex.wo).unwrap_or_else(|| {
             let u_lobe = points.sample_1d(vertex.dimension(Decision::LobeChoice));
             let u = points.sample_2d(vertex.dimension(Decision::Direction));

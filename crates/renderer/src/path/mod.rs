@@ -25,7 +25,7 @@ use crate::settings::Strategy;
 use crate::statistics::RayCounts;
 
 pub(crate) use first_hit::FirstHit;
-pub(crate) use transport::{Prepared, Spectral, Surfaces, Transport, Volumes};
+pub(crate) use transport::{Carried, Prepared, Surfaces, Transport, Volumes};
 
 /// Solves the rendering equation for one ray at a time.
 ///
@@ -104,22 +104,7 @@ struct Vertex<'a, C: Channels> {
     ratios: C::Color,
 }
 
-impl<'a, C: Channels> Vertex<'a, C> {
-    #[inline(always)]
-    fn new(
-        depth: u16,
-        point: &'a SurfacePoint,
-        walk: &Walk<C>,
-        wo: Vec3,
-        bsdf: &'a PreparedBsdf<'a, C>,
-    ) -> Self {
-        let Walk { channels, ratios, .. } = *walk;
-        let normal = if wo.z < 0.0 { -point.shading.n } else { point.shading.n };
-        let sides = if bsdf.lobes().transmission { Sides::Both } else { Sides::Front };
-        let receiver = Receiver { position: point.position, normal, sides };
-        Self { depth, point, bsdf, wo, receiver, channels, ratios }
-    }
-
+impl<C: Channels> Vertex<'_, C> {
     fn dimension(&self, decision: Decision) -> Dimension {
         Dimension::vertex(self.depth, decision)
     }
@@ -255,42 +240,34 @@ impl<'a, 's, R: Rays, C: Channels> PathTracer<'a, 's, R, C> {
         self.scene.surfaces[point.shape.0 as usize].light.is_some()
     }
 
-    /// The vertex at a point; `varying` holds the reflection model where textures make it one of its
-    /// own.
+    /// The vertex at a point.
+    ///
+    /// * `exterior`: index of refraction outside of a body among others, where the surface is one of those.
+    /// * `varying` holds the reflection model where textures or bodies make it one of its own.
     #[inline(always)]
     fn vertex<'v>(
         &'v self,
         depth: u16,
         point: &'v SurfacePoint,
         walk: &Walk<C>,
+        exterior: Option<f32>,
         varying: &'v mut Varying<'v, C>,
     ) -> Vertex<'v, C> {
+        let Walk { channels, ratios, .. } = *walk;
         let wo = point.shading.to_local(-walk.ray.direction);
+        let side = Side::of(wo);
         let material = self.scene.surfaces[point.shape.0 as usize].material;
-        let bsdf = self.materials.at(material, point, Side::of(wo), walk.channels, varying);
-        Vertex::new(depth, point, walk, wo, bsdf)
-    }
-
-    /// The same with an index outside of a body among others.
-    fn vertex_within<'v>(
-        &'v self,
-        depth: u16,
-        point: &'v SurfacePoint,
-        walk: &Walk<C>,
-        exterior: f32,
-        varying: &'v mut Varying<'v, C>,
-    ) -> Vertex<'v, C> {
-        let wo = point.shading.to_local(-walk.ray.direction);
-        let material = self.scene.surfaces[point.shape.0 as usize].material;
-        let copy = SurfacePoint { ..*point };
-        let bsdf = self.materials.at_within(
-            material,
-            copy,
-            Side::of(wo),
-            walk.channels,
-            exterior,
-            varying,
-        );
-        Vertex::new(depth, point, walk, wo, bsdf)
+        let bsdf = match exterior {
+            None => self.materials.at(material, point, side, channels, varying),
+            // A copy field by field: a reference would keep the point of every path in memory.
+            Some(_) => {
+                let point = SurfacePoint { ..*point };
+                self.materials.at_surface(material, point, side, channels, exterior, varying)
+            }
+        };
+        let normal = if wo.z < 0.0 { -point.shading.n } else { point.shading.n };
+        let sides = if bsdf.lobes().transmission { Sides::Both } else { Sides::Front };
+        let receiver = Receiver { position: point.position, normal, sides };
+        Vertex { depth, point, bsdf, wo, receiver, channels, ratios }
     }
 }

@@ -5,9 +5,9 @@ use etendue_sampling::Sampler;
 use etendue_scene::Color;
 use etendue_scene::color::Primaries;
 use etendue_scene::geometry::{Ray, Rays};
-use etendue_scene::material::{PreparedMaterials, Varying};
+use etendue_scene::material::Varying;
 
-use super::transport::{Prepared, Surfaces, Transport};
+use super::transport::{Surfaces, Transport};
 use super::{Fate, PathTracer, Walk};
 use crate::statistics::RayCounts;
 
@@ -15,10 +15,6 @@ impl Transport for Surfaces {
     const VOLUMES: bool = false;
 
     type Channels = Primaries;
-
-    fn materials<'r, 'a>(prepared: &'r Prepared<'a>) -> &'r PreparedMaterials<'a> {
-        &prepared.rgb
-    }
 
     #[inline(always)]
     fn radiance<S: Sampler, R: Rays>(
@@ -41,7 +37,7 @@ impl Transport for Surfaces {
                 break;
             }
             let mut varying = Varying::default();
-            let vertex = tracer.vertex(depth, &point, &walk, &mut varying);
+            let vertex = tracer.vertex(depth, &point, &walk, None, &mut varying);
             if tracer.is_inconsistent(&vertex, -walk.ray.direction, vertex.wo) {
                 break;
             }

@@ -1,5 +1,7 @@
 //! What paths go through, and what they carry.
 
+use core::marker::PhantomData;
+
 use etendue_sampling::Sampler;
 use etendue_scene::camera::Sight;
 use etendue_scene::color::{Channels, Primaries, Wavelengths};
@@ -19,10 +21,7 @@ pub(crate) trait Transport {
     const VOLUMES: bool;
 
     /// What paths carry.
-    type Channels: Channels;
-
-    /// The materials for these channels.
-    fn materials<'r, 'a>(prepared: &'r Prepared<'a>) -> &'r PreparedMaterials<'a, Self::Channels>;
+    type Channels: Carried;
 
     /// An estimate of the radiance that arrives along a ray of the camera.
     fn radiance<S: Sampler, R: Rays>(
@@ -37,10 +36,27 @@ pub(crate) trait Transport {
 pub(crate) enum Surfaces {}
 
 /// Participating media between surfaces, surfaces that bound them, and transparent bodies that overlap.
-pub(crate) enum Volumes {}
+///
+/// In primaries, or a few wavelengths at a time.
+pub(crate) struct Volumes<C>(PhantomData<C>);
 
-/// The same, followed by a few wavelengths at a time.
-pub(crate) enum Spectral {}
+/// Channels that there are prepared materials for.
+pub(crate) trait Carried: Channels {
+    /// The materials for these channels.
+    fn materials<'r, 'a>(prepared: &'r Prepared<'a>) -> &'r PreparedMaterials<'a, Self>;
+}
+
+impl Carried for Primaries {
+    fn materials<'r, 'a>(prepared: &'r Prepared<'a>) -> &'r PreparedMaterials<'a> {
+        &prepared.rgb
+    }
+}
+
+impl Carried for Wavelengths {
+    fn materials<'r, 'a>(prepared: &'r Prepared<'a>) -> &'r PreparedMaterials<'a, Self> {
+        &prepared.spectral
+    }
+}
 
 /// The materials of a scene for each kind of channels.
 pub(crate) struct Prepared<'a> {

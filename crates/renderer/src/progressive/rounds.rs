@@ -231,7 +231,7 @@ impl<S: Sampler, T: Transport> Task for ExtendTile<'_, '_, '_, S, T> {
     #[inline(always)]
     fn run<R: Rays>(self, rays: R) -> Statistics {
         let renderer = self.renderer;
-        let tracer = renderer.tracer::<T, R>(rays);
+        let tracer = renderer.tracer::<T::Channels, R>(rays);
         let mut statistics = Statistics::default();
         for (pixel, halves) in self.tile.pixels().zip(self.halves) {
             let index = self.canvas.index(pixel);

@@ -1,5 +1,6 @@
 //! How much of the world a sample stands for.
 
+use etendue_math::Real;
 use etendue_math::glam::Vec3;
 
 use super::Camera;
@@ -33,7 +34,7 @@ impl Sight {
         let middle = film.size.map(|pixels| pixels as f32 * 0.5);
         let [ray, next] =
             [0.0, 1.0].map(|column| camera.ray([middle[0] + column, middle[1]], [0.5; 2]));
-        let scale = (1.0 / etendue_math::Real::sqrt(samples_per_pixel.max(1) as f32)).max(0.125);
+        let scale = (1.0 / Real::sqrt(samples_per_pixel.max(1) as f32)).max(0.125);
         Self {
             origin: ray.origin,
             width: scale * ray.origin.distance(next.origin),

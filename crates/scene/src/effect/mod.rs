@@ -200,7 +200,7 @@ impl Effect {
             Self::RoughTransmission => {
                 "the same with a choice between two sides, and light samples from both"
             }
-            Self::Dispersion => {
+            Self::Dispersion | Self::SpectralColours => {
                 "four wavelengths instead of three primaries all over the scene, models made at every surface met"
             }
             Self::NestedDielectrics => {
@@ -248,9 +248,6 @@ impl Effect {
                 "a random number per sample; a placement interpolated, a ray transformed and a second hierarchy entered per moving shape met"
             }
             Self::HiddenEmitters => "a further ray behind every emitter that the camera sees",
-            Self::SpectralColours => {
-                "four wavelengths instead of three primaries all over the scene, models made at every surface met"
-            }
             Self::StrictNormals => "a comparison per direction",
         }
     }

@@ -81,7 +81,7 @@ impl Scene {
             let Some(mut material) = self.materials.get(id).cloned() else { continue };
             let element = Element::Material(id);
             causes.extend(of_surface(&material).map(|effect| (effect, element)));
-            if matches!(material, Material::Dielectric { nesting: Some(_), .. }) {
+            if material.nesting().is_some() {
                 causes.push((Effect::NestedDielectrics, element));
             }
             if material.disperses() {

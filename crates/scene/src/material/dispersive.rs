@@ -92,12 +92,10 @@ impl<S: Spectrum<Real = f32>> Dispersive<S> {
         if self.facets.is_none() {
             return (S::black(), S::black());
         }
-        let of_channel = |index| match self.interface(index) {
+        let (values, densities) = self.indices.map_to_pair(|index| match self.interface(index) {
             Some(Interface::Rough(rough)) => rough.eval_pdf(wo, wi),
             _ => (0.0, 0.0),
-        };
-        let values = self.indices.map(|index| of_channel(index).0);
-        let densities = self.indices.map(|index| of_channel(index).1);
+        });
         (values * self.factor(wo, wi), densities)
     }
 

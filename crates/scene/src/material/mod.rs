@@ -347,9 +347,7 @@ impl Materials {
 
     /// Whether there are [bodies among others](Nesting).
     pub fn nest(&self) -> bool {
-        let nests =
-            |material: &Material| matches!(material, Material::Dielectric { nesting: Some(_), .. });
-        self.materials.iter().any(nests)
+        self.materials.iter().any(|material| material.nesting().is_some())
     }
 
     /// Materials and those that they are made of.
@@ -437,6 +435,15 @@ impl Material {
             | Self::TwoSided { .. }
             | Self::Null => return None,
         })
+    }
+
+    /// What it is among other bodies, if it is a body among others.
+    #[inline]
+    pub fn nesting(&self) -> Option<Nesting> {
+        match *self {
+            Self::Dielectric { nesting, .. } => nesting,
+            _ => None,
+        }
     }
 
     /// Whether it refracts light of different wavelengths into different directions.

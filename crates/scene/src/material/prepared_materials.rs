@@ -96,7 +96,7 @@ impl<'a, C: Channels> PreparedMaterials<'a, C> {
             (Some(Readiness::Uniform([_, back])), Side::Back) => back,
             (Some(Readiness::Surface), _) => {
                 // A copy field by field: a reference would keep the point of every path in memory.
-                self.at_surface(id, SurfacePoint { ..*point }, side, channels, varying)
+                self.at_surface(id, SurfacePoint { ..*point }, side, channels, None, varying)
             }
             _ => {
                 let bsdf =
@@ -106,52 +106,23 @@ impl<'a, C: Channels> PreparedMaterials<'a, C> {
         }
     }
 
-    /// The same for a surface of a [body among others](super::Nesting), which has one of index `exterior` around it there.
+    /// The same for a material that depends on more than texture coordinates, or one of a
+    /// [body among others](super::Nesting) that has one of index `exterior` around it there; out of line.
     #[inline(never)]
-    pub fn at_within<'b>(
+    pub fn at_surface<'b>(
         &'b self,
         id: MaterialId,
         point: SurfacePoint,
         side: Side,
         channels: C,
-        exterior: f32,
+        exterior: Option<f32>,
         varying: &'b mut Varying<'b, C>,
     ) -> &'b PreparedBsdf<'b, C> {
-        let surface = &*varying.surface.insert(self.locate(point));
+        let located =
+            Located::new(self.geometry, point).as_wide_as(self.sight.width(point.position));
+        let at = (&*varying.surface.insert(located)).into();
         let Self { materials, textures, .. } = *self;
-        let at = surface.into();
-        varying.bsdf.insert(materials.prepare_within(
-            id,
-            textures,
-            at,
-            side,
-            channels,
-            Some(exterior),
-        ))
-    }
-
-    fn locate(&self, point: SurfacePoint) -> Located<'a> {
-        Located::new(self.geometry, point).as_wide_as(self.sight.width(point.position))
-    }
-
-    /// The same for a material that depends on more than texture coordinates; out of line.
-    #[inline(never)]
-    fn at_surface<'b>(
-        &'b self,
-        id: MaterialId,
-        point: SurfacePoint,
-        side: Side,
-        channels: C,
-        varying: &'b mut Varying<'b, C>,
-    ) -> &'b PreparedBsdf<'b, C> {
-        let surface = &*varying.surface.insert(self.locate(point));
-        varying.bsdf.insert(self.materials.prepare(
-            id,
-            self.textures,
-            surface.into(),
-            side,
-            channels,
-        ))
+        varying.bsdf.insert(materials.prepare_within(id, textures, at, side, channels, exterior))
     }
 }
 

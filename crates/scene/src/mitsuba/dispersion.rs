@@ -52,9 +52,8 @@ fn given(reader: &mut PluginReader<'_>) -> Result<Option<(&'static str, Dispersi
         reader.ignore(&WAYS);
         return Ok(None);
     };
-    let others =
-        ways.chain(["int_ior"].into_iter().filter(|other| reader.has(other) && way != "abbe"));
-    if let Some(other) = others.into_iter().next() {
+    let index = (way != "abbe" && reader.has("int_ior")).then_some("int_ior");
+    if let Some(other) = ways.chain(index).next() {
         return Err(reader.error(other, format!("give either “{way}” or “{other}”")));
     }
     let dispersion = match way {

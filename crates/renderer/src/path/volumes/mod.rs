@@ -12,67 +12,28 @@ use etendue_brdf::Bsdf;
 use etendue_math::Spectrum;
 use etendue_sampling::{Decision, Dimension, Sampler};
 use etendue_scene::Color;
-use etendue_scene::color::{Channels, Primaries, Wavelengths};
 use etendue_scene::geometry::{Ray, Rays};
-use etendue_scene::material::{PreparedMaterials, Varying};
+use etendue_scene::material::Varying;
 
-use super::transport::{Prepared, Spectral, Transport, Volumes};
+use super::transport::{Carried, Transport, Volumes};
 use super::{Arrival, Fate, PathTracer, Walk};
 use crate::statistics::RayCounts;
-use bodies::{Bodies, Crossing};
+use bodies::Bodies;
 use course::Course;
 use travel::Event;
 
-impl Transport for Volumes {
+impl<C: Carried> Transport for Volumes<C> {
     const VOLUMES: bool = true;
 
-    type Channels = Primaries;
+    type Channels = C;
 
-    fn materials<'r, 'a>(prepared: &'r Prepared<'a>) -> &'r PreparedMaterials<'a> {
-        &prepared.rgb
-    }
-
-    #[inline(always)]
-    fn radiance<S: Sampler, R: Rays>(
-        tracer: &PathTracer<'_, '_, R>,
-        camera_ray: Ray,
-        points: &S,
-        rays: &mut RayCounts,
-    ) -> Color {
-        tracer.through_volumes::<Self, S>(camera_ray, points, rays)
-    }
-}
-
-impl Transport for Spectral {
-    const VOLUMES: bool = true;
-
-    type Channels = Wavelengths;
-
-    fn materials<'r, 'a>(prepared: &'r Prepared<'a>) -> &'r PreparedMaterials<'a, Wavelengths> {
-        &prepared.spectral
-    }
-
-    #[inline(always)]
-    fn radiance<S: Sampler, R: Rays>(
-        tracer: &PathTracer<'_, '_, R, Wavelengths>,
-        camera_ray: Ray,
-        points: &S,
-        rays: &mut RayCounts,
-    ) -> Color {
-        tracer.through_volumes::<Self, S>(camera_ray, points, rays)
-    }
-}
-
-impl<R: Rays, C: Channels> PathTracer<'_, '_, R, C> {
-    /// An estimate of the radiance that arrives along a ray of the camera.
-    ///
     /// ```text
     /// L(x, −ω) = ∫₀^d T(s) σs ∫ p(ω·ω') L(x + sω, −ω') dω' ds + T(d) L(surface at d)
     /// T(s) = exp(−∫₀^s σt)
     /// ```
     ///
     /// The distance to the next collision is drawn in proportion to T σt of one channel; where
-    /// channels differ, as if from the mixture of all three; light of single points is looked for near to them as well, by a
+    /// channels differ, as if from the mixture of all; light of single points is looked for near to them as well, by a
     /// [`Beam`](airlight::Beam). Edges count as in Mitsuba 3's `volpath`:
     /// a collision is a vertex, a surface that light passes straight on is none, though it has
     /// random numbers of its own.
@@ -81,17 +42,17 @@ impl<R: Rays, C: Channels> PathTracer<'_, '_, R, C> {
     /// Chandrasekhar, "Radiative Transfer", 1950; Wilkie et al., "Hero Wavelength Spectral Sampling",
     /// CGF 33(4), 2014, for the mixture over channels.
     #[inline(always)]
-    fn through_volumes<T: Transport<Channels = C>, S: Sampler>(
-        &self,
+    fn radiance<S: Sampler, R: Rays>(
+        tracer: &PathTracer<'_, '_, R, C>,
         camera_ray: Ray,
         points: &S,
         rays: &mut RayCounts,
     ) -> Color {
-        let longest = self.longest();
+        let longest = tracer.longest();
         let channels = C::of_path(|| points.sample_1d(Dimension::camera(Decision::Wavelength)));
         let mut radiance = C::Color::black();
         let mut walk = Walk::from_camera(camera_ray, channels);
-        let mut course = Course::in_medium(self.around_camera());
+        let mut course = Course::in_medium(tracer.around_camera());
         let mut bodies = Bodies::none(course.medium);
         let mut edges = 1;
         rays.camera += 1;
@@ -101,15 +62,15 @@ impl<R: Rays, C: Channels> PathTracer<'_, '_, R, C> {
                 break;
             }
             let mut beam = None;
-            let event = self.travel(&mut walk, &mut course, &mut beam, depth, points, rays);
+            let event = tracer.travel(&mut walk, &mut course, &mut beam, depth, points, rays);
             let on_beam = beam
                 .as_ref()
                 .filter(|_| edges < longest)
-                .and_then(|beam| self.light_on_beam(beam, depth, channels, points));
+                .and_then(|beam| tracer.light_on_beam(beam, depth, channels, points));
             let throughput;
             let (shadowed, fate) = match event {
                 Event::Escape => {
-                    radiance += walk.throughput * self.escaped(&walk);
+                    radiance += walk.throughput * tracer.escaped(&walk);
                     throughput = walk.throughput;
                     (None, Fate::Ends)
                 }
@@ -119,13 +80,16 @@ impl<R: Rays, C: Channels> PathTracer<'_, '_, R, C> {
                         break;
                     }
                     let shadowed =
-                        self.light_in_medium(&collision, beam.as_ref(), channels, points);
-                    (shadowed, self.scatter_in_medium(&collision, edges, &mut walk, points))
+                        tracer.light_in_medium(&collision, beam.as_ref(), channels, points);
+                    (shadowed, tracer.scatter_in_medium(&collision, edges, &mut walk, points))
                 }
                 Event::Surface(point) => {
                     let direction = walk.ray.direction;
-                    let crossing =
-                        if self.nests { self.crossing(&bodies, &point, direction) } else { None };
+                    let crossing = if tracer.nests {
+                        tracer.crossing(&bodies, &point, direction)
+                    } else {
+                        None
+                    };
                     throughput = walk.throughput;
                     if let Some(hidden) = crossing.as_ref().filter(|crossing| crossing.is_hidden) {
                         // Goes on as if there were no surface. Shadow rays end there.
@@ -134,27 +98,23 @@ impl<R: Rays, C: Channels> PathTracer<'_, '_, R, C> {
                         walk.arrival = Arrival::Certain;
                         (None, Fate::Passes)
                     } else {
-                        radiance += walk.throughput * self.emitted(&walk, &point);
+                        radiance += walk.throughput * tracer.emitted(&walk, &point);
                         let mut varying = Varying::default();
-                        let vertex = match &crossing {
-                            Some(Crossing { exterior, .. }) => {
-                                self.vertex_within(depth, &point, &walk, *exterior, &mut varying)
-                            }
-                            None => self.vertex(depth, &point, &walk, &mut varying),
-                        };
+                        let exterior = crossing.as_ref().map(|crossing| crossing.exterior);
+                        let vertex = tracer.vertex(depth, &point, &walk, exterior, &mut varying);
                         let is_last = edges == longest;
                         // Of the last surface matters only what passes it.
                         if is_last && !vertex.bsdf.lobes().delta
-                            || self.is_inconsistent(&vertex, -direction, vertex.wo)
+                            || tracer.is_inconsistent(&vertex, -direction, vertex.wo)
                         {
                             (None, Fate::Ends)
                         } else {
                             let shadowed = if is_last {
                                 None
                             } else {
-                                self.light_at_surface(&vertex, &course, points)
+                                tracer.light_at_surface(&vertex, &course, points)
                             };
-                            let fate = self.scatter::<T, S>(&vertex, edges, &mut walk, points);
+                            let fate = tracer.scatter::<Self, S>(&vertex, edges, &mut walk, points);
                             let onwards = walk.ray.direction;
                             course.medium = match crossing {
                                 Some(crossing)
@@ -164,7 +124,7 @@ impl<R: Rays, C: Channels> PathTracer<'_, '_, R, C> {
                                     bodies.cross(&crossing)
                                 }
                                 Some(_) => course.medium,
-                                None => self.beyond(&point, onwards, course.medium),
+                                None => tracer.beyond(&point, onwards, course.medium),
                             };
                             (shadowed, fate)
                         }
@@ -174,7 +134,7 @@ impl<R: Rays, C: Channels> PathTracer<'_, '_, R, C> {
             // In one place for all vertices, so that what traces rays is compiled once.
             let shadowed = shadowed.map(|shadowed| (throughput, shadowed));
             for (throughput, shadowed) in [on_beam, shadowed].into_iter().flatten() {
-                let share = self.transmittance(&shadowed, depth, points, rays);
+                let share = tracer.transmittance(&shadowed, depth, points, rays);
                 radiance += throughput * (shadowed.light * share);
             }
             match fate {

@@ -3,9 +3,8 @@
 use alloc::format;
 use alloc::sync::Arc;
 
-use etendue_brdf::{
-    Alpha, BeckmannLambda, Distribution, Ior, KullaContyDielectric, Masking, Microfacets,
-};
+use etendue_brdf::microfacet::FacetLoss;
+use etendue_brdf::{Alpha, Ior, KullaContyDielectric, Microfacets};
 
 use super::super::Context;
 use super::super::reader::PluginReader;
@@ -24,13 +23,10 @@ pub(super) fn of_metal(
 ) -> Result<Option<Compensation>, SceneError> {
     let choices = [("lost", None), ("kulla-conty", Some(false)), ("turquin", Some(true))];
     let Some(is_turquin) = reader.choice(NAME, &choices)? else { return Ok(None) };
-    let is_known = match roughness.distribution {
-        Distribution::Ggx => true,
-        Distribution::Beckmann { lambda } => {
-            lambda == BeckmannLambda::Exact && roughness.masking == Masking::HeightCorrelated
-        }
-    };
-    if !is_known || roughness.alpha_u != roughness.alpha_v {
+    // Of any width: which tables there are depends on the rest.
+    let [u, v] = [Alpha::clamped(0.5); 2];
+    let facets = Microfacets::new(roughness.distribution, u, v, roughness.masking);
+    if FacetLoss::new(&facets).is_err() || roughness.alpha_u != roughness.alpha_v {
         let message = format!(
             "there are tables of “{NAME}” for isotropic facets only, “ggx” ones or “beckmann” ones with “smith_lambda” \
              “exact” and “masking” “correlated”"
