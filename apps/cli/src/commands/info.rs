@@ -98,6 +98,7 @@ fn material_name(material: &Material) -> &'static str {
 fn light_name(light: &Light) -> &'static str {
     match light {
         Light::Area(_) => "area",
+        Light::Beam(_) => "directional area",
         Light::Point(_) => "point",
         Light::Spot(_) => "spot",
         Light::Projector(_) => "projector",

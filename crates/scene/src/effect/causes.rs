@@ -9,7 +9,7 @@ use crate::texture::{Texture, TextureId};
 /// The effect of a light.
 pub(super) fn of_light(light: &Light) -> Effect {
     match light {
-        Light::Area(_) => Effect::AreaLight,
+        Light::Area(_) | Light::Beam(_) => Effect::AreaLight,
         Light::Point(_) => Effect::PointLight,
         Light::Spot(_) => Effect::SpotLight,
         Light::Projector(_) => Effect::Projector,
