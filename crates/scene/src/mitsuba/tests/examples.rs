@@ -1,5 +1,6 @@
 //! The examples of plugins.
 
+use alloc::vec::Vec;
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 
