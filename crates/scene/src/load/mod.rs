@@ -43,4 +43,4 @@ pub use normals::smooth_normals;
 pub use obj::{ObjMesh, ObjScene, load_obj, load_obj_merged, parse_obj, parse_obj_merged};
 pub use ply::{load_ply, parse_ply};
 pub use serialized::{load_serialized, parse_serialized};
-pub use volume::{VolumeFile, load_volume, parse_volume};
+pub use volume::{VolumeFile, load_sdf, load_volume, parse_sdf, parse_volume};

@@ -3,6 +3,7 @@
 mod group;
 mod mesh;
 mod primitive;
+mod sdf;
 mod surface;
 
 pub(super) use mesh::shaded;
@@ -31,6 +32,7 @@ const SHAPES: &Family<Item> = &[
     ("obj", mesh::obj),
     ("ply", mesh::ply),
     ("rectangle", primitive::rectangle),
+    ("sdfgrid", sdf::sdfgrid),
     ("serialized", mesh::serialized),
     ("shapegroup", group::group),
     ("sphere", primitive::sphere),

@@ -58,7 +58,11 @@ pub(super) fn surface<'a>(
             .help("its shape must stand still while the shutter is open"));
     }
     if radiance.is_some() && shape.area_total() == 0.0 {
-        return Err(SceneError::scene(location.clone(), "a light needs an area, this has none"));
+        let error = SceneError::scene(location.clone(), "a light needs an area, this has none");
+        return Err(match shape {
+            Shape::Sdf(_) => error.help("points are not drawn on distance fields: use a mesh"),
+            _ => error,
+        });
     }
     let material = match bsdf {
         Some(child) => bsdf::translate(context, child.node)?,
@@ -83,7 +87,8 @@ fn check_motion(shape: &Shape, motion: &Motion) -> Result<(), ShapeError> {
         }
     }
     let Aabb { min, max } = motion.bounds(&shape.bounds());
-    if shape.area_total() > 0.0 && !(min.is_finite() && max.is_finite()) {
+    let is_out = !(min.is_finite() && max.is_finite());
+    if is_out && !shape.bounds().is_empty() {
         return Err(ShapeError::OutOfRange);
     }
     Ok(())
