@@ -69,6 +69,7 @@ fn shape_name(shape: &Shape) -> &'static str {
         Shape::Disk(_) => "disk",
         Shape::Cylinder(_) => "cylinder",
         Shape::Sdf(_) => "distance field",
+        Shape::Curves(_) => "curves",
     }
 }
 

@@ -59,6 +59,7 @@ impl<'a> Located<'a> {
             Shape::Disk(disk) => disk.partials(uv),
             Shape::Cylinder(cylinder) => cylinder.partials(uv),
             Shape::Sdf(_) => [Vec3::ZERO; 2],
+            Shape::Curves(curves) => curves.partials(primitive, uv),
         };
         match self.geometry.placement(instance, time, &mut None) {
             Some(transform) => local.map(|d| transform.vector(d)),

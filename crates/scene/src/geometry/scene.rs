@@ -36,7 +36,8 @@ pub struct Hit {
     pub uv: [f32; 2],
     /// The shape.
     pub shape: ShapeId,
-    /// The triangle within a mesh, the half of a rectangle, the voxel of a distance field, 0 on other shapes.
+    /// The triangle within a mesh, the half of a rectangle, the voxel of a distance field, the segment or part of
+    /// curves, 0 on other shapes.
     pub primitive: u32,
     /// The instance through which the shape was hit, or `u32::MAX` for none.
     pub instance: u32,

@@ -6,8 +6,8 @@ use etendue_sampling::warp;
 
 use super::surface::LocalSurface;
 use super::{
-    Aabb, Cylinder, Disk, Hit, MeshError, Ray, Rectangle, SdfGrid, ShapeSample, Sphere, Transform,
-    TransformError, TriangleMesh, triangle,
+    Aabb, CurveError, Curves, Cylinder, Disk, Hit, MeshError, Ray, Rectangle, SdfGrid, ShapeSample,
+    Sphere, Transform, TransformError, TriangleMesh, triangle,
 };
 
 /// A shape of a scene, by its place in the scene's list.
@@ -17,8 +17,8 @@ pub struct ShapeId(pub u32);
 /// A surface. Parameterisations and normals are those of Mitsuba 3.
 ///
 /// Points are drawn primitive by primitive: the triangles of a mesh, or the one surface of the
-/// other shapes. A primitive that does not exist has area 0 and is never hit. On distance fields no
-/// points are drawn: they have no primitives and area 0, but are hit.
+/// other shapes. A primitive that does not exist has area 0 and is never hit. On distance fields
+/// and curves no points are drawn: they have no primitives and area 0, but are hit.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Shape {
     /// Triangles.
@@ -33,6 +33,8 @@ pub enum Shape {
     Cylinder(Cylinder),
     /// The surface of a distance field.
     Sdf(Box<SdfGrid>),
+    /// Curves with thickness.
+    Curves(Box<Curves>),
 }
 
 /// Why a shape is refused.
@@ -50,6 +52,9 @@ pub enum ShapeError {
     /// A distance field is positive everywhere, or negative.
     #[error("the values have one sign: there is no surface between them")]
     NoSurface,
+    /// The control points of curves are refused.
+    #[error(transparent)]
+    Curves(#[from] CurveError),
     /// A coordinate leaves the range of `f32`.
     #[error("the transformed shape is out of range")]
     OutOfRange,
@@ -71,6 +76,7 @@ impl Shape {
             Self::Disk(s) => s.bounds(),
             Self::Cylinder(s) => s.bounds(),
             Self::Sdf(s) => s.bounds(),
+            Self::Curves(s) => s.bounds(),
         }
     }
 
@@ -83,6 +89,7 @@ impl Shape {
             Self::Disk(s) => Self::Disk(s.flipped()),
             Self::Cylinder(s) => Self::Cylinder(s.flipped()),
             Self::Sdf(s) => Self::Sdf(Box::new(s.flipped())),
+            Self::Curves(s) => Self::Curves(Box::new(s.flipped())),
         }
     }
 
@@ -98,15 +105,17 @@ impl Shape {
             Self::Disk(s) => Self::Disk(s.transformed(transform)?),
             Self::Cylinder(s) => Self::Cylinder(s.transformed(transform)?),
             Self::Sdf(s) => Self::Sdf(Box::new(s.transformed(transform)?)),
+            Self::Curves(s) => Self::Curves(Box::new(s.transformed(transform)?)),
         })
     }
 
-    /// How many primitives points can be drawn on: the triangles of a mesh, none of a distance field, 1 otherwise.
+    /// How many primitives points can be drawn on: the triangles of a mesh, none of distance fields and
+    /// curves, 1 otherwise.
     #[inline(always)]
     pub fn primitive_count(&self) -> u32 {
         match self {
             Self::Mesh(mesh) => mesh.triangles().len() as u32,
-            Self::Sdf(_) => 0,
+            Self::Sdf(_) | Self::Curves(_) => 0,
             _ => 1,
         }
     }
@@ -123,7 +132,7 @@ impl Shape {
             Self::Rectangle(s) => s.area(),
             Self::Disk(s) => s.area(),
             Self::Cylinder(s) => s.area(),
-            Self::Sdf(_) => 0.0,
+            Self::Sdf(_) | Self::Curves(_) => 0.0,
         }
     }
 
@@ -148,17 +157,18 @@ impl Shape {
             Self::Rectangle(s) => s.at(u),
             Self::Disk(s) => s.sample_area(u),
             Self::Cylinder(s) => s.sample_area(u),
-            Self::Sdf(_) => return None,
+            Self::Sdf(_) | Self::Curves(_) => return None,
         })
     }
 
-    /// The objects that a hierarchy numbers, as in [`Hit::primitive`]: the voxels of a distance field, a quadric as a
-    /// whole, none where there are triangles instead.
+    /// The objects that a hierarchy numbers, as in [`Hit::primitive`]: the voxels of a distance field, the
+    /// segments and parts of curves, a quadric as a whole, none where there are triangles instead.
     pub(crate) fn object_count(&self) -> u32 {
         match self {
             Self::Mesh(_) | Self::Rectangle(_) => 0,
             Self::Sphere(_) | Self::Disk(_) | Self::Cylinder(_) => 1,
             Self::Sdf(s) => s.voxel_count(),
+            Self::Curves(s) => s.object_count(),
         }
     }
 
@@ -166,6 +176,7 @@ impl Shape {
     pub(crate) fn object_bounds(&self, object: u32) -> Aabb {
         match self {
             Self::Sdf(s) => s.voxel_bounds(object),
+            Self::Curves(s) => s.object_bounds(object),
             _ => self.bounds(),
         }
     }
@@ -177,6 +188,7 @@ impl Shape {
             Self::Disk(s) => s.intersect(ray),
             Self::Cylinder(s) => s.intersect(ray),
             Self::Sdf(s) => s.intersect(object, ray),
+            Self::Curves(s) => s.intersect(object, ray),
             Self::Mesh(_) | Self::Rectangle(_) => None,
         }
     }
@@ -208,6 +220,7 @@ impl Shape {
             Self::Disk(s) => s.surface(ray),
             Self::Cylinder(s) => s.surface(ray, hit.t),
             Self::Sdf(s) => s.surface(hit.primitive, ray, hit.t),
+            Self::Curves(s) => s.surface(hit.primitive, ray, hit.t),
         }
     }
 }

@@ -21,6 +21,7 @@
 //! Nothing here interprets: transforms, missing normals ([`smooth_normals`]), textures and BSDFs are
 //! the business of whoever asked for the file. Files are read whole, by one thread.
 
+mod curves;
 mod file;
 mod image;
 mod lines;
@@ -35,6 +36,7 @@ pub mod srgb;
 mod volume;
 mod warnings;
 
+pub use curves::{CurveFile, load_curves, parse_curves};
 pub use file::read_asset;
 pub use image::{Encoding, Image, load_image, parse_image};
 pub use mesh_file::{MeshFile, TexCoords};

@@ -3,6 +3,7 @@
 mod materials;
 mod media;
 mod motion;
+mod shapes;
 
 use alloc::format;
 use alloc::string::{String, ToString};

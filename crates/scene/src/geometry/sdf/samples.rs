@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 /// Why values do not make a distance field.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum SdfError {
-    /// There is no voxel, or there are more samples than can be numbered.
+    /// There is no voxel, or there are 2³⁰ samples or more.
     #[error(
         "a distance field of {0} × {1} × {2} samples cannot be used: 2 or more along each axis make a voxel"
     )]
@@ -44,10 +44,12 @@ impl SdfSamples {
     /// As many values as the size has samples.
     ///
     /// # Errors
-    /// Fewer than 2 samples along an axis, 2³² or more in all, another number of values, a value that is NaN or infinite.
+    /// Fewer than 2 samples along an axis, 2³⁰ or more in all, another number of values, a value that is NaN or infinite.
     pub fn new(size: [u32; 3], values: Vec<f32>) -> Result<Self, SdfError> {
         let [x, y, z] = size;
         let count = size.iter().try_fold(1_u32, |count, &n| count.checked_mul(n));
+        // The objects of a hierarchy are numbered with 30 bits.
+        let count = count.filter(|&count| count < 1 << 30);
         let (true, Some(count)) = (size.iter().all(|&n| n >= 2), count) else {
             return Err(SdfError::Size(x, y, z));
         };

@@ -1,3 +1,5 @@
+//! Laws of distance fields.
+
 use alloc::vec::Vec;
 
 use super::*;

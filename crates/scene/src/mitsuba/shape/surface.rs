@@ -60,7 +60,9 @@ pub(super) fn surface<'a>(
     if radiance.is_some() && shape.area_total() == 0.0 {
         let error = SceneError::scene(location.clone(), "a light needs an area, this has none");
         return Err(match shape {
-            Shape::Sdf(_) => error.help("points are not drawn on distance fields: use a mesh"),
+            Shape::Sdf(_) | Shape::Curves(_) => {
+                error.help("points are not drawn on distance fields and curves: use a mesh")
+            }
             _ => error,
         });
     }
