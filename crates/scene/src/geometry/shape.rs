@@ -2,6 +2,7 @@
 
 use alloc::boxed::Box;
 
+use etendue_math::glam::Vec3;
 use etendue_sampling::warp;
 
 use super::surface::LocalSurface;
@@ -133,6 +134,20 @@ impl Shape {
             Self::Disk(s) => s.area(),
             Self::Cylinder(s) => s.area(),
             Self::Sdf(_) | Self::Curves(_) => 0.0,
+        }
+    }
+
+    /// The point of a rectangle or disk from which its normal leads to `above`; `None` where that is outside or behind, and
+    /// of other shapes.
+    pub(crate) fn foot(&self, above: Vec3) -> Option<ShapeSample> {
+        match self {
+            Self::Rectangle(s) => s.foot(above),
+            Self::Disk(s) => s.foot(above),
+            Self::Mesh(_)
+            | Self::Sphere(_)
+            | Self::Cylinder(_)
+            | Self::Sdf(_)
+            | Self::Curves(_) => None,
         }
     }
 

@@ -77,8 +77,7 @@ impl RoundCone {
                 [k * (m.dot(m) - r * r) - y * y, k * m.dot(d) - y * along, k * dd - along * along];
             let t = falling_root(quadratic);
             let v = t.map_or(f64::NAN, |t| (y + t * along) / k);
-            // Written so that NaN is outside.
-            meet(t.filter(|_| v >= 0.0 && v <= 1.0), v);
+            meet(t.filter(|_| (0.0..=1.0).contains(&v)), v);
         }
         first.map(|(t, v)| (middle + t, v))
     }
@@ -97,8 +96,7 @@ fn enter_sphere(m: DVec3, d: DVec3, radius: f64) -> Option<f64> {
 /// The root of `c₀ + 2 c₁ t + c₂ t²` at which it goes from positive to negative, whatever the sign of c₂.
 fn falling_root([c0, c1, c2]: [f64; 3]) -> Option<f64> {
     let discriminant = c1 * c1 - c0 * c2;
-    // Written so that NaN has no root.
-    if !(discriminant >= 0.0) {
+    if discriminant.is_nan() || discriminant < 0.0 {
         return None;
     }
     let root = Real::sqrt(discriminant);

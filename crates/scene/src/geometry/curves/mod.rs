@@ -198,7 +198,7 @@ impl Curves {
         let axis = Vector3::try_normalize(cone.axis).unwrap_or(DVec3::Z);
         let outward = Vector3::try_normalize(p - center).unwrap_or(DVec3::Z);
         let u = Around::of(axis).turn(outward);
-        self.local(Placed { center, radius, outward, normal: outward, uv: [u, v], segment }, None)
+        self.local(&Placed { center, radius, outward, normal: outward, uv: [u, v], segment }, None)
     }
 
     fn on_spline(&self, segment: u32, v: f64, p: DVec3) -> LocalSurface {
@@ -212,11 +212,14 @@ impl Curves {
         let normal = Vector3::try_normalize(normal).unwrap_or(outward);
         let u = Around::of(along).turn(outward);
         let around = along.cross(outward);
-        self.local(Placed { center, radius, outward, normal, uv: [u, v], segment }, Some(around))
+        self.local(
+            &Placed { center, radius, outward, normal, uv: [u, v], segment },
+            Some(around.as_vec3()),
+        )
     }
 
-    fn local(&self, placed: Placed, tangent: Option<DVec3>) -> LocalSurface {
-        let Placed { center, radius, outward, normal, uv: [u, v], segment } = placed;
+    fn local(&self, placed: &Placed, tangent: Option<Vec3>) -> LocalSurface {
+        let Placed { center, radius, outward, normal, uv: [u, v], segment } = *placed;
         let (position, error) = round_point(center + outward * radius, center, radius);
         let normal = (normal * self.side).as_vec3();
         let v = (v + f64::from(segment)) / f64::from(self.segment_count());
@@ -226,7 +229,7 @@ impl Curves {
             normal,
             shading_normal: normal,
             uv: [u as f32, v as f32],
-            tangent: tangent.map(|tangent| tangent.as_vec3()),
+            tangent,
             primitive: segment,
         }
     }

@@ -192,7 +192,7 @@ impl Spline {
         let m = o - center;
         let radius = 0.5 * Vector3::length(chord) + reach;
         let square = radius * radius - m.dot(m);
-        if !(square >= 0.0) {
+        if square.is_nan() || square < 0.0 {
             return None;
         }
         let half = Real::sqrt(square / dd);
@@ -211,19 +211,15 @@ impl Spline {
                 return None;
             }
         }
-        if !(near < far) || near + nearest >= f64::from(ray.t_max) {
-            return None;
-        }
         let depth = |t: f64| self.depth(o + d * t, d, span);
-        let outside = entry_bracket(&depth, near, far)?;
-        let t = bracketed(
-            |t| {
-                let Depth { value, slope, .. } = depth(t);
-                [value, slope]
-            },
-            outside,
-            false,
-        );
+        // Written so that NaN is no way.
+        let is_met = near < far && near + nearest < f64::from(ray.t_max);
+        let ends = is_met.then(|| entry_bracket(&depth, near, far)).flatten()?;
+        let function = |t: f64| {
+            let Depth { value, slope, .. } = depth(t);
+            [value, slope]
+        };
+        let t = bracketed(function, ends, false);
         Some((nearest + t, depth(t).u))
     }
 

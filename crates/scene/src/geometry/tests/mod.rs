@@ -113,7 +113,7 @@ pub(super) fn without_points(transform: &Transform, scale: f64) -> [Shape; 3] {
     let field = SdfGrid::new(samples, SdfNormals::Smooth, transform).expect("it has a surface");
     let curves = |basis| {
         let winding = (0..8).map(|i| {
-            let (sin, cos) = (i as f32 * 0.9).sin_cos();
+            let (sin, cos) = etendue_math::Real::sin_cos(i as f32 * 0.9);
             let radius = (0.15 + 0.02 * (i % 3) as f32) * scale as f32;
             CurvePoint { position: Vec3::new(cos, sin, 0.3 * i as f32 - 1.0) * 0.7, radius }
         });

@@ -1,5 +1,6 @@
 //! Distance fields, curves and merged shapes.
 
+use alloc::vec::Vec;
 use std::fs;
 use std::path::PathBuf;
 
@@ -31,7 +32,7 @@ fn assets() -> (tempfile::TempDir, PathBuf) {
     (folder, path)
 }
 
-fn shape(plugin: &str, file: &std::path::Path, inside: &str) -> String {
+fn shape(plugin: &str, file: &Path, inside: &str) -> String {
     let name = file.display();
     format!(
         "<shape type=\"{plugin}\">\n<string name=\"filename\" value=\"{name}\"/>\n{inside}</shape>"
