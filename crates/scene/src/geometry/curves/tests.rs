@@ -209,7 +209,7 @@ fn hits_lie_on_the_surface_within_their_bound_wherever_it_is() {
                 assert!(geometry.occluded(&Ray { t_max: hit.t * 1.001, ..ray }));
                 assert!(!geometry.occluded(&Ray { t_max: hit.t, ..ray }));
             }
-            assert!(found > 100 && grazing > 0, "{found} {grazing}");
+            assert!(found > 50 && grazing > 0, "{found} {grazing}");
         }
     }
 }

@@ -243,7 +243,7 @@ fn extreme_rays_give_no_nan() {
 fn voxels_and_parts_of_curves_are_found_as_by_trying_all() {
     let mut random = Random(18);
     for _ in 0..6 {
-        for shape in without_points(&random.similarity(0.4), 0.4) {
+        for shape in without_points(&random.similarity(1.5), 1.5) {
             let whole = geometry([shape.clone()]);
             let center = whole.bounds().center();
             let mut found = 0;
