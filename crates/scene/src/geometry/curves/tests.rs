@@ -186,7 +186,7 @@ fn hits_lie_on_the_surface_within_their_bound_wherever_it_is() {
             let geometry = geometry(&curves);
             let center = geometry.bounds().center();
             let size = scale as f32;
-            let (mut found, mut grazing) = (0, 0);
+            let (mut found, mut oblique) = (0, 0);
             for _ in 0..1500 {
                 let origin = center + random.direction() * (6.0 * size);
                 let ray = Ray::new(origin, center + random.point() * size - origin);
@@ -195,7 +195,7 @@ fn hits_lie_on_the_surface_within_their_bound_wherever_it_is() {
                 let p = geometry.surface_point(&ray, &hit);
                 let cos = p.normal.dot(ray.direction.normalize());
                 assert!(cos < 1e-3, "met from inside: {cos}");
-                grazing += u32::from(cos > -0.1);
+                oblique += u32::from(cos > -0.5);
                 // A hit lies on the ray, up to rounding: t has 24 bits, and so have both ends.
                 let off = (ray.at(hit.t) - p.position).length();
                 assert!(off < 8.0 * f32::EPSILON * (origin.length() + 7.0 * size), "{off}");
@@ -209,7 +209,7 @@ fn hits_lie_on_the_surface_within_their_bound_wherever_it_is() {
                 assert!(geometry.occluded(&Ray { t_max: hit.t * 1.001, ..ray }));
                 assert!(!geometry.occluded(&Ray { t_max: hit.t, ..ray }));
             }
-            assert!(found > 50 && grazing > 0, "{found} {grazing}");
+            assert!(found > 50 && oblique > 5, "{found} {oblique}");
         }
     }
 }
