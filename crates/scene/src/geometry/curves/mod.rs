@@ -167,7 +167,8 @@ impl Curves {
             }
             CurveBasis::BSpline => {
                 let part = self.parts.get(object as usize)?;
-                let (t, v) = self.spline(part.segment).entry(part, ray)?;
+                let passage = part.passage(ray)?;
+                let (t, v) = self.spline(part.segment).entry(part, &passage)?;
                 Some(Entry { t, segment: part.segment, v })
             }
         }

@@ -2,7 +2,7 @@
 
 use alloc::vec::Vec;
 
-use etendue_math::glam::DVec3;
+use etendue_math::glam::{DVec3, Vec3};
 use etendue_math::{Real, Vector3};
 
 use super::points::CurvePoint;
@@ -35,8 +35,47 @@ pub(super) struct Part {
     /// Its parameters, multiples of a power of 1/2.
     pub(super) from: f32,
     pub(super) to: f32,
-    /// No point of its surface is farther from its chord.
+    /// Its ends, rounded.
+    chord: [Vec3; 2],
+    /// No point of its surface is farther from the chord.
     reach: f32,
+}
+
+/// A ray on its way past a part.
+pub(super) struct Passage {
+    /// The place on the ray next to the middle of the part, and its parameter: parameters count from there, so that
+    /// distance costs no digits.
+    place: DVec3,
+    nearest: f64,
+    direction: DVec3,
+    /// Where the ray is within a sphere about the part, from its origin on.
+    span: [f64; 2],
+}
+
+impl Part {
+    /// The way of a ray past the part; `None` where it does not come near enough.
+    pub(super) fn passage(&self, ray: &Ray) -> Option<Passage> {
+        let ([start, end], reach) = (self.chord.map(Vec3::as_dvec3), f64::from(self.reach));
+        let (origin, direction) = (ray.origin.as_dvec3(), ray.direction.as_dvec3());
+        let (square, center) = (direction.dot(direction), (start + end) * 0.5);
+        let nearest = (center - origin).dot(direction) / square;
+        let place = origin + direction * nearest;
+        let across = direction.cross(end - start);
+        let gap = across.dot(center - place);
+        if gap * gap > reach * reach * across.dot(across) {
+            return None;
+        }
+        let beside = place - center;
+        let radius = 0.5 * Vector3::length(end - start) + reach;
+        let left = radius * radius - beside.dot(beside);
+        if left.is_nan() || left < 0.0 {
+            return None;
+        }
+        let half = Real::sqrt(left / square);
+        let span = [(-half).max(-nearest), half];
+        let is_met = span[0] < half && span[0] + nearest < f64::from(ray.t_max);
+        is_met.then_some(Passage { place, nearest, direction, span })
+    }
 }
 
 /// Parts are halved this many times at most: 64 of a segment that turns back on itself.
@@ -132,9 +171,12 @@ impl Spline {
         let is_whole = depth >= MOST_HALVINGS
             || (bezier.is_straight() && (depth >= FOR_BOXES || !bezier.is_slender()));
         if is_whole {
-            // Rounded up.
+            let chord = bezier.ends().map(DVec3::as_vec3);
+            let size = chord[0].abs().max(chord[1].abs()).max_element();
+            // Rounded up, and what the ends are rounded by.
             let reach = (bezier.reach() * (1.0 + f64::from(f32::EPSILON))) as f32;
-            parts.push(Part { segment, from: from as f32, to: to as f32, reach });
+            let reach = reach + size * f32::EPSILON;
+            parts.push(Part { segment, from: from as f32, to: to as f32, chord, reach });
         } else {
             let middle = 0.5 * (from + to);
             self.halve(segment, [from, middle], depth + 1, parts);
@@ -174,35 +216,16 @@ impl Spline {
     ///
     /// # Source
     /// What a round curve is: Embree 4, `kernels/geometry/curve_intersector_sweep.h`; the way to the root is ours.
-    pub(super) fn entry(&self, part: &Part, ray: &Ray) -> Option<(f64, f64)> {
+    pub(super) fn entry(&self, part: &Part, passage: &Passage) -> Option<(f64, f64)> {
+        let Passage { place, nearest, direction, span: [mut near, mut far] } = *passage;
         let span = [f64::from(part.from), f64::from(part.to)];
         let [start, end] = span.map(|u| self.at(u));
-        let (d, chord) = (ray.direction.as_dvec3(), end.position - start.position);
-        let (dd, center) = (d.dot(d), start.position + chord * 0.5);
-        let reach = f64::from(part.reach);
-        // From the place next to the part, so that distance costs no digits.
-        let origin = ray.origin.as_dvec3();
-        let nearest = (center - origin).dot(d) / dd;
-        let o = origin + d * nearest;
-        let across = d.cross(chord);
-        let gap = across.dot(start.position - o);
-        if gap * gap > reach * reach * across.dot(across) {
-            return None;
-        }
-        let m = o - center;
-        let radius = 0.5 * Vector3::length(chord) + reach;
-        let square = radius * radius - m.dot(m);
-        if square.is_nan() || square < 0.0 {
-            return None;
-        }
-        let half = Real::sqrt(square / dd);
-        let mut near = (-half).max(-nearest);
-        let mut far = half;
+        let chord = end.position - start.position;
         // Behind the first plane and before the second one.
         for (plane, side) in [(&start, 1.0), (&end, -1.0)] {
             let normal = if plane.tangent == DVec3::ZERO { chord } else { plane.tangent };
-            let slope = normal.dot(d) * side;
-            let height = normal.dot(plane.position - o) * side;
+            let slope = normal.dot(direction) * side;
+            let height = normal.dot(plane.position - place) * side;
             if slope > 0.0 {
                 near = near.max(height / slope);
             } else if slope < 0.0 {
@@ -211,26 +234,31 @@ impl Spline {
                 return None;
             }
         }
-        let depth = |t: f64| self.depth(o + d * t, d, span);
+        let share = chord / chord.dot(chord);
+        let depth = |t: f64| {
+            let p = place + direction * t;
+            // As if the part was straight.
+            let guess = span[0] + (span[1] - span[0]) * (p - start.position).dot(share);
+            self.depth(p, direction, span, guess)
+        };
         // Written so that NaN is no way.
-        let is_met = near < far && near + nearest < f64::from(ray.t_max);
-        let ends = is_met.then(|| entry_bracket(&depth, near, far)).flatten()?;
+        let ends = (near < far).then(|| entry_bracket(&depth, near, far)).flatten()?;
         let function = |t: f64| {
             let Depth { value, slope, .. } = depth(t);
             [value, slope]
         };
-        let t = bracketed(function, ends, false);
+        let t = bracketed(function, ends, f64::NAN, false);
         Some((nearest + t, depth(t).u))
     }
 
-    /// * `d`: the ray's direction. * `span`: the parameters of the part.
-    fn depth(&self, p: DVec3, d: DVec3, span: [f64; 2]) -> Depth {
+    /// * `d`: the ray's direction. * `span`: the parameters of the part. * `guess`: where on the curve to begin.
+    fn depth(&self, p: DVec3, d: DVec3, span: [f64; 2], guess: f64) -> Depth {
         let along = |u: f64| {
             let Center { position, tangent, .. } = self.at(u);
             let w = p - position;
             [w.dot(tangent), w.dot(self.curvature(u)[0]) - tangent.dot(tangent)]
         };
-        let u = bracketed(along, span, false);
+        let u = bracketed(along, span, guess, false);
         let Center { position, tangent, radius } = self.at(u);
         let w = p - position;
         let advance = d.dot(tangent) / (tangent.dot(tangent) - w.dot(self.curvature(u)[0]));
@@ -278,8 +306,13 @@ fn entry_bracket(depth: &impl Fn(f64) -> Depth, near: f64, far: f64) -> Option<[
 }
 
 impl Bezier {
+    fn ends(&self) -> [DVec3; 2] {
+        [self.0[0].0, self.0[3].0]
+    }
+
     fn chord(&self) -> DVec3 {
-        self.0[3].0 - self.0[0].0
+        let [start, end] = self.ends();
+        end - start
     }
 
     fn is_straight(&self) -> bool {

@@ -31,7 +31,9 @@ pub(super) fn roots(c: [f64; 4], end: f64) -> impl Iterator<Item = f64> {
             Some(b)
         } else {
             let is_cut = (value < 0.0) != (other < 0.0);
-            is_cut.then(|| bracketed(function, [a, b], value < 0.0))
+            // Where the chord is 0.
+            let guess = a + (b - a) * (value / (value - other));
+            is_cut.then(|| bracketed(function, [a, b], guess, value < 0.0))
         }
     })
 }
