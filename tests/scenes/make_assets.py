@@ -147,13 +147,30 @@ def serialized(path):
 
 
 def vol(path, size, channels, value):
-    """Mitsuba's volume format; `value(x, y, z)` gives one float per channel, for cells in a box of 2 × 1 × 1."""
+    """Mitsuba's volume format; `value(x, y, z)` gives a list of one float per channel, for cells in a box of 2 × 1 × 1."""
     nx, ny, nz = size
     cells = [value(x, y, z) for z in range(nz) for y in range(ny) for x in range(nx)]
     numbers = [number for cell in cells for number in cell]
     with open(path, "wb") as file:
         file.write(b"VOL\x03" + struct.pack("<5i6f", 1, nx, ny, nz, channels, -0.5, 0, 0, 1.5, 1, 1))
         file.write(struct.pack(f"<{len(numbers)}f", *numbers))
+
+
+def distance(x, y, z):
+    """Roughly the distance from a dented ball, at one of 9³ samples."""
+    p = [(c - 4) / 8 for c in (x, y, z)]
+    return math.sqrt(sum(c * c for c in p)) - 0.36 + 0.07 * math.sin(9 * p[0]) * math.cos(7 * p[1] + 4 * p[2])
+
+
+def curls(path):
+    """Curves that wind: x, y, z and a radius in each line, an empty line between curves."""
+    with open(path, "w") as file:
+        for curve in range(7):
+            for i in range(9):
+                angle = 0.9 * i + curve
+                x, y, z = 0.3 * math.cos(angle) + 0.45 * (curve - 3), 0.22 * i - 0.2, 0.3 * math.sin(angle)
+                file.write(f"{x:.6f} {y:.6f} {z:.6f} {0.03 + 0.02 * ((i + curve) % 3) + 0.004 * curve:.6f}\n")
+            file.write("\n")
 
 
 def smoke(x, y, z):
@@ -209,6 +226,8 @@ def main():
     ply(path("torus-ascii.ply"), is_binary=False)
     vol(path("grey.vol"), (6, 4, 5), 1, lambda x, y, z: (smoke(x, y, z) * (x + y > 2),))
     vol(path("rgb.vol"), (4, 3, 5), 3, lambda x, y, z: [0.9 * smoke(*p) for p in ((x, y, z), (y, z, x), (z, x, y))])
+    vol(path("distance.vol"), (9, 9, 9), 1, lambda x, y, z: (distance(x, y, z),))
+    curls(path("curls.txt"))
     octahedron(path("octahedron.ply"))
     serialized(path("two.serialized"))
     with open(path("leaf.spd"), "w") as file:

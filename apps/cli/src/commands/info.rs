@@ -68,6 +68,8 @@ fn shape_name(shape: &Shape) -> &'static str {
         Shape::Rectangle(_) => "rectangle",
         Shape::Disk(_) => "disk",
         Shape::Cylinder(_) => "cylinder",
+        Shape::Sdf(_) => "distance field",
+        Shape::Curves(_) => "curves",
     }
 }
 

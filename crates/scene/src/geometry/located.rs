@@ -43,7 +43,7 @@ impl<'a> Located<'a> {
 
     /// How the position changes with the texture coordinates: `∂p/∂u` and `∂p/∂v`, in world space.
     ///
-    /// Where a mesh has no texture coordinates, two unit vectors orthogonal to the geometric normal.
+    /// Where a mesh has no texture coordinates, two unit vectors orthogonal to the geometric normal; 0 on a distance field.
     ///
     /// # Source
     /// Mitsuba 3, `compute_surface_interaction` of each shape.
@@ -58,6 +58,8 @@ impl<'a> Located<'a> {
             Shape::Rectangle(rectangle) => rectangle.partials(),
             Shape::Disk(disk) => disk.partials(uv),
             Shape::Cylinder(cylinder) => cylinder.partials(uv),
+            Shape::Sdf(_) => [Vec3::ZERO; 2],
+            Shape::Curves(curves) => curves.partials(primitive, uv),
         };
         match self.geometry.placement(instance, time, &mut None) {
             Some(transform) => local.map(|d| transform.vector(d)),

@@ -36,7 +36,8 @@ pub struct Hit {
     pub uv: [f32; 2],
     /// The shape.
     pub shape: ShapeId,
-    /// The triangle within a mesh, the half of a rectangle, 0 on other shapes.
+    /// The triangle within a mesh, the half of a rectangle, the voxel of a distance field, the segment or part of
+    /// curves, 0 on other shapes.
     pub primitive: u32,
     /// The instance through which the shape was hit, or `u32::MAX` for none.
     pub instance: u32,
@@ -71,12 +72,19 @@ struct Instance {
     transform: Transform,
 }
 
+/// A quadric, or a part of a shape that has several such objects.
+#[derive(Clone, Copy, Debug)]
+struct Object {
+    shape: u32,
+    number: u32,
+}
+
 /// One hierarchy: the world, or a group.
 #[derive(Clone, Debug)]
 pub(super) struct Level {
-    /// Its objects are the quadrics, followed by the instances of the world and by what moves in it.
+    /// Its objects are those of shapes, followed by the instances of the world and by what moves in it.
     pub(super) bvh: Bvh,
-    quadrics: Vec<u32>,
+    objects: Vec<Object>,
     triangles: usize,
     degenerate_triangles: usize,
 }
@@ -85,29 +93,25 @@ impl Level {
     /// `instances`: the boxes of the instances.
     fn build(shapes: &[Shape], ids: impl Iterator<Item = u32>, instances: &[Aabb]) -> Self {
         let (mut triangles, mut degenerate_triangles) = (Vec::new(), 0);
-        let (mut quadrics, mut boxes) = (Vec::new(), Vec::new());
+        let (mut objects, mut boxes) = (Vec::new(), Vec::new());
         for id in ids {
             let shape = &shapes[id as usize];
-            match shape {
-                Shape::Mesh(_) | Shape::Rectangle(_) => {
-                    for primitive in 0..shape.triangle_count() {
-                        let Some(corners) = shape.triangle(primitive) else { continue };
-                        if triangle::normal(&corners).is_some() {
-                            triangles.push(TriangleRef { corners, shape: id, primitive });
-                        } else {
-                            degenerate_triangles += 1;
-                        }
-                    }
+            for primitive in 0..shape.triangle_count() {
+                let Some(corners) = shape.triangle(primitive) else { continue };
+                if triangle::normal(&corners).is_some() {
+                    triangles.push(TriangleRef { corners, shape: id, primitive });
+                } else {
+                    degenerate_triangles += 1;
                 }
-                Shape::Sphere(_) | Shape::Disk(_) | Shape::Cylinder(_) => {
-                    quadrics.push(id);
-                    boxes.push(shape.bounds());
-                }
+            }
+            for number in 0..shape.object_count() {
+                objects.push(Object { shape: id, number });
+                boxes.push(shape.object_bounds(number));
             }
         }
         boxes.extend_from_slice(instances);
         let bvh = Bvh::build(&triangles, &boxes);
-        Self { bvh, quadrics, triangles: triangles.len(), degenerate_triangles }
+        Self { bvh, objects, triangles: triangles.len(), degenerate_triangles }
     }
 }
 
@@ -316,30 +320,30 @@ impl Geometry {
     }
 }
 
-/// The objects of the world: quadrics and instances.
+/// The objects of the world: those of shapes, and instances.
 struct World<'a> {
     geometry: &'a Geometry,
     ray: &'a Ray,
     time: f32,
 }
 
-/// The objects of a group: quadrics only, so that instances do not nest.
+/// The objects of a group: those of shapes only, so that instances do not nest.
 struct Group<'a> {
     shapes: &'a [Shape],
-    quadrics: &'a [u32],
+    objects: &'a [Object],
     ray: &'a Ray,
 }
 
 impl<'a> World<'a> {
-    fn quadrics(&self) -> Group<'a> {
+    fn shapes(&self) -> Group<'a> {
         let Geometry { shapes, top, .. } = self.geometry;
-        Group { shapes, quadrics: &top.quadrics, ray: self.ray }
+        Group { shapes, objects: &top.objects, ray: self.ray }
     }
 
-    /// The number of an object that is not a quadric.
+    /// The number of an object that is no shape's.
     #[inline(always)]
     fn instance(&self, object: u32) -> Option<u32> {
-        object.checked_sub(self.geometry.top.quadrics.len() as u32)
+        object.checked_sub(self.geometry.top.objects.len() as u32)
     }
 
     /// The group of an instance, and the ray in its space.
@@ -365,10 +369,10 @@ impl Objects for World<'_> {
     #[inline(always)]
     fn closest<S: Simd>(&self, simd: S, object: u32, found: &mut Found) {
         let Some(number) = self.instance(object) else {
-            return self.quadrics().closest(simd, object, found);
+            return self.shapes().closest(simd, object, found);
         };
         let Some((group, ray)) = self.enter(number) else { return };
-        let objects = Group { shapes: &self.geometry.shapes, quadrics: &group.quadrics, ray: &ray };
+        let objects = Group { shapes: &self.geometry.shapes, objects: &group.objects, ray: &ray };
         let before = found.t;
         group.bvh.closest(simd, &PreparedRay::new(simd, &ray), &objects, found);
         if found.t < before {
@@ -379,10 +383,10 @@ impl Objects for World<'_> {
     #[inline(always)]
     fn occluded<S: Simd>(&self, simd: S, object: u32, t_max: f32) -> bool {
         let Some(number) = self.instance(object) else {
-            return self.quadrics().occluded(simd, object, t_max);
+            return self.shapes().occluded(simd, object, t_max);
         };
         let Some((group, ray)) = self.enter(number) else { return false };
-        let objects = Group { shapes: &self.geometry.shapes, quadrics: &group.quadrics, ray: &ray };
+        let objects = Group { shapes: &self.geometry.shapes, objects: &group.objects, ray: &ray };
         group.bvh.occluded(simd, &PreparedRay::new(simd, &ray), &objects, t_max)
     }
 }
@@ -390,18 +394,19 @@ impl Objects for World<'_> {
 impl Group<'_> {
     /// Never inlined: `f64` arithmetic in the middle of the loop over boxes would only cost registers.
     #[inline(never)]
-    fn intersect(&self, object: u32, t_max: f32) -> Option<(u32, f32)> {
-        let shape = *self.quadrics.get(object as usize)?;
+    fn intersect(&self, object: u32, t_max: f32) -> Option<(Object, f32)> {
+        let object = *self.objects.get(object as usize)?;
         let ray = Ray { t_max, ..*self.ray };
-        Some((shape, self.shapes[shape as usize].intersect_quadric(&ray)?))
+        let t = self.shapes[object.shape as usize].intersect_object(object.number, &ray)?;
+        Some((object, t))
     }
 }
 
 impl Objects for Group<'_> {
     #[inline(always)]
     fn closest<S: Simd>(&self, _: S, object: u32, found: &mut Found) {
-        if let Some((shape, t)) = self.intersect(object, found.t) {
-            *found = Found { t, shape, ..Found::nothing_before(t) };
+        if let Some((Object { shape, number }, t)) = self.intersect(object, found.t) {
+            *found = Found { t, shape, primitive: number, ..Found::nothing_before(t) };
         }
     }
 

@@ -76,7 +76,7 @@ impl Shape {
                 let longest = (b - a).length_squared().max((d - a).length_squared());
                 looks_small(longest, &[a - reference, b - reference, c - reference, d - reference])
             }
-            Self::Disk(_) | Self::Cylinder(_) => true,
+            Self::Disk(_) | Self::Cylinder(_) | Self::Sdf(_) | Self::Curves(_) => true,
         }
     }
 
@@ -101,7 +101,7 @@ impl Shape {
                 SphericalRectangle::new(Corner { corner: corner - reference, edges })
                     .map(Seen::Rectangle)
             }
-            Self::Disk(_) | Self::Cylinder(_) => None,
+            Self::Disk(_) | Self::Cylinder(_) | Self::Sdf(_) | Self::Curves(_) => None,
         };
         Some(by_angle.unwrap_or(Seen::Area { pdf: 1.0 / self.primitive_area(primitive) }))
     }

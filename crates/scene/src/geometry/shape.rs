@@ -1,12 +1,14 @@
 //! The shapes a scene is made of.
 
+use alloc::boxed::Box;
+
 use etendue_math::glam::Vec3;
 use etendue_sampling::warp;
 
 use super::surface::LocalSurface;
 use super::{
-    Aabb, Cylinder, Disk, Hit, MeshError, Ray, Rectangle, ShapeSample, Sphere, Transform,
-    TransformError, TriangleMesh, triangle,
+    Aabb, CurveError, Curves, Cylinder, Disk, Hit, MeshError, Ray, Rectangle, SdfGrid, ShapeSample,
+    Sphere, Transform, TransformError, TriangleMesh, triangle,
 };
 
 /// A shape of a scene, by its place in the scene's list.
@@ -16,7 +18,8 @@ pub struct ShapeId(pub u32);
 /// A surface. Parameterisations and normals are those of Mitsuba 3.
 ///
 /// Points are drawn primitive by primitive: the triangles of a mesh, or the one surface of the
-/// other shapes. A primitive that does not exist has area 0 and is never hit.
+/// other shapes. A primitive that does not exist has area 0 and is never hit. On distance fields
+/// and curves no points are drawn: they have no primitives and area 0, but are hit.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Shape {
     /// Triangles.
@@ -29,6 +32,10 @@ pub enum Shape {
     Disk(Disk),
     /// A cylinder without caps.
     Cylinder(Cylinder),
+    /// The surface of a distance field.
+    Sdf(Box<SdfGrid>),
+    /// Curves with thickness.
+    Curves(Box<Curves>),
 }
 
 /// Why a shape is refused.
@@ -43,6 +50,12 @@ pub enum ShapeError {
     /// The transform would change the kind of shape: an ellipsoid, an oblique cylinder.
     #[error("the transform scales this shape unequally or shears it")]
     NonUniformScale,
+    /// A distance field is positive everywhere, or negative.
+    #[error("the values have one sign: there is no surface between them")]
+    NoSurface,
+    /// The control points of curves are refused.
+    #[error(transparent)]
+    Curves(#[from] CurveError),
     /// A coordinate leaves the range of `f32`.
     #[error("the transformed shape is out of range")]
     OutOfRange,
@@ -63,6 +76,8 @@ impl Shape {
             Self::Rectangle(s) => s.bounds(),
             Self::Disk(s) => s.bounds(),
             Self::Cylinder(s) => s.bounds(),
+            Self::Sdf(s) => s.bounds(),
+            Self::Curves(s) => s.bounds(),
         }
     }
 
@@ -74,6 +89,8 @@ impl Shape {
             Self::Rectangle(s) => Self::Rectangle(s.flipped()),
             Self::Disk(s) => Self::Disk(s.flipped()),
             Self::Cylinder(s) => Self::Cylinder(s.flipped()),
+            Self::Sdf(s) => Self::Sdf(Box::new(s.flipped())),
+            Self::Curves(s) => Self::Curves(Box::new(s.flipped())),
         }
     }
 
@@ -88,14 +105,18 @@ impl Shape {
             Self::Rectangle(s) => Self::Rectangle(s.transformed(transform)?),
             Self::Disk(s) => Self::Disk(s.transformed(transform)?),
             Self::Cylinder(s) => Self::Cylinder(s.transformed(transform)?),
+            Self::Sdf(s) => Self::Sdf(Box::new(s.transformed(transform)?)),
+            Self::Curves(s) => Self::Curves(Box::new(s.transformed(transform)?)),
         })
     }
 
-    /// How many primitives points can be drawn on: the triangles of a mesh, 1 otherwise.
+    /// How many primitives points can be drawn on: the triangles of a mesh, none of distance fields and
+    /// curves, 1 otherwise.
     #[inline(always)]
     pub fn primitive_count(&self) -> u32 {
         match self {
             Self::Mesh(mesh) => mesh.triangles().len() as u32,
+            Self::Sdf(_) | Self::Curves(_) => 0,
             _ => 1,
         }
     }
@@ -112,6 +133,7 @@ impl Shape {
             Self::Rectangle(s) => s.area(),
             Self::Disk(s) => s.area(),
             Self::Cylinder(s) => s.area(),
+            Self::Sdf(_) | Self::Curves(_) => 0.0,
         }
     }
 
@@ -121,7 +143,11 @@ impl Shape {
         match self {
             Self::Rectangle(s) => s.foot(above),
             Self::Disk(s) => s.foot(above),
-            Self::Mesh(_) | Self::Sphere(_) | Self::Cylinder(_) => None,
+            Self::Mesh(_)
+            | Self::Sphere(_)
+            | Self::Cylinder(_)
+            | Self::Sdf(_)
+            | Self::Curves(_) => None,
         }
     }
 
@@ -146,15 +172,38 @@ impl Shape {
             Self::Rectangle(s) => s.at(u),
             Self::Disk(s) => s.sample_area(u),
             Self::Cylinder(s) => s.sample_area(u),
+            Self::Sdf(_) | Self::Curves(_) => return None,
         })
     }
 
-    /// Where a ray meets a shape that is not made of triangles.
-    pub(crate) fn intersect_quadric(&self, ray: &Ray) -> Option<f32> {
+    /// The objects that a hierarchy numbers, as in [`Hit::primitive`]: the voxels of a distance field, the
+    /// segments and parts of curves, a quadric as a whole, none where there are triangles instead.
+    pub(crate) fn object_count(&self) -> u32 {
+        match self {
+            Self::Mesh(_) | Self::Rectangle(_) => 0,
+            Self::Sphere(_) | Self::Disk(_) | Self::Cylinder(_) => 1,
+            Self::Sdf(s) => s.voxel_count(),
+            Self::Curves(s) => s.object_count(),
+        }
+    }
+
+    /// A box that holds one of these objects.
+    pub(crate) fn object_bounds(&self, object: u32) -> Aabb {
+        match self {
+            Self::Sdf(s) => s.voxel_bounds(object),
+            Self::Curves(s) => s.object_bounds(object),
+            _ => self.bounds(),
+        }
+    }
+
+    /// Where a ray meets one of these objects.
+    pub(crate) fn intersect_object(&self, object: u32, ray: &Ray) -> Option<f32> {
         match self {
             Self::Sphere(s) => s.intersect(ray),
             Self::Disk(s) => s.intersect(ray),
             Self::Cylinder(s) => s.intersect(ray),
+            Self::Sdf(s) => s.intersect(object, ray),
+            Self::Curves(s) => s.intersect(object, ray),
             Self::Mesh(_) | Self::Rectangle(_) => None,
         }
     }
@@ -185,6 +234,8 @@ impl Shape {
             Self::Sphere(s) => s.surface(ray, hit.t),
             Self::Disk(s) => s.surface(ray),
             Self::Cylinder(s) => s.surface(ray, hit.t),
+            Self::Sdf(s) => s.surface(hit.primitive, ray, hit.t),
+            Self::Curves(s) => s.surface(hit.primitive, ray, hit.t),
         }
     }
 }

@@ -214,7 +214,7 @@ pub(crate) fn azimuth(y: f64, x: f64) -> f64 {
 }
 
 /// The common length of the columns if they are orthogonal and equally long.
-fn uniform_scale(t: &Transform) -> Option<f64> {
+pub(super) fn uniform_scale(t: &Transform) -> Option<f64> {
     // Matrices in scene files have six or seven digits.
     const TOLERANCE: f64 = 1e-4;
     let m = &t.affine().matrix3;

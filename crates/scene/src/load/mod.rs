@@ -21,6 +21,7 @@
 //! Nothing here interprets: transforms, missing normals ([`smooth_normals`]), textures and BSDFs are
 //! the business of whoever asked for the file. Files are read whole, by one thread.
 
+mod curves;
 mod file;
 mod image;
 mod lines;
@@ -35,6 +36,7 @@ pub mod srgb;
 mod volume;
 mod warnings;
 
+pub use curves::{CurveFile, load_curves, parse_curves};
 pub use file::read_asset;
 pub use image::{Encoding, Image, load_image, parse_image};
 pub use mesh_file::{MeshFile, TexCoords};
@@ -43,4 +45,4 @@ pub use normals::smooth_normals;
 pub use obj::{ObjMesh, ObjScene, load_obj, load_obj_merged, parse_obj, parse_obj_merged};
 pub use ply::{load_ply, parse_ply};
 pub use serialized::{load_serialized, parse_serialized};
-pub use volume::{VolumeFile, load_volume, parse_volume};
+pub use volume::{VolumeFile, load_sdf, load_volume, parse_sdf, parse_volume};

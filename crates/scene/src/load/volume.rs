@@ -19,7 +19,7 @@ use etendue_math::glam::Vec3;
 
 use super::file::read_asset;
 use crate::error::{Location, SceneError};
-use crate::geometry::Aabb;
+use crate::geometry::{Aabb, SdfSamples};
 use crate::medium::VolumeGrid;
 
 /// A volume file.
@@ -33,7 +33,7 @@ pub struct VolumeFile {
 
 const HEADER: usize = 48;
 
-/// The grid of a volume file.
+/// The grid of a volume file, as the density of a medium or a texture.
 ///
 /// # Errors
 /// A file that cannot be read, and everything [`parse_volume`] refuses.
@@ -47,10 +47,48 @@ pub fn load_volume(path: &Path) -> Result<VolumeFile, SceneError> {
 /// Another format, version or encoding; other numbers of channels than 1 and 3; no cells; fewer
 /// values than the header declares; a value that is NaN, infinite or negative.
 pub fn parse_volume(bytes: &[u8], path: &Path) -> Result<VolumeFile, SceneError> {
-    parse(bytes).map_err(|message| SceneError::scene(Location::file(path), message))
+    let parse = || {
+        let Content { size, channels, values, bounds } = content(bytes)?;
+        let grid = VolumeGrid::new(size, channels, values).map_err(|e| format!("{e}"))?;
+        Ok(VolumeFile { grid, bounds })
+    };
+    parse().map_err(|message: String| SceneError::scene(Location::file(path), message))
 }
 
-fn parse(bytes: &[u8]) -> Result<VolumeFile, String> {
+/// The samples of a distance field in a volume file.
+///
+/// # Errors
+/// A file that cannot be read, and everything [`parse_sdf`] refuses.
+pub fn load_sdf(path: &Path) -> Result<SdfSamples, SceneError> {
+    parse_sdf(&read_asset(path)?, path)
+}
+
+/// The samples of a distance field in the bytes of a volume file, whose box does not count: they fill the unit cube.
+/// `path` stands in messages.
+///
+/// # Errors
+/// Another format, version or encoding; another number of channels than 1; fewer than 2 samples along an axis; fewer
+/// values than the header declares; a value that is NaN or infinite.
+pub fn parse_sdf(bytes: &[u8], path: &Path) -> Result<SdfSamples, SceneError> {
+    let parse = || {
+        let Content { size, channels, values, .. } = content(bytes)?;
+        if channels != 1 {
+            return Err(format!("a distance field has 1 channel, this file has {channels}"));
+        }
+        SdfSamples::new(size, values).map_err(|e| format!("{e}"))
+    };
+    parse().map_err(|message: String| SceneError::scene(Location::file(path), message))
+}
+
+/// What is in a volume file, before it means something.
+struct Content {
+    size: [u32; 3],
+    channels: u32,
+    values: Vec<f32>,
+    bounds: Aabb,
+}
+
+fn content(bytes: &[u8]) -> Result<Content, String> {
     if !bytes.starts_with(b"VOL") {
         return Err("this is no volume file: it does not begin with “VOL”".into());
     }
@@ -79,11 +117,11 @@ fn parse(bytes: &[u8]) -> Result<VolumeFile, String> {
     };
     let number = |c: &[u8]| f32::from_le_bytes([c[0], c[1], c[2], c[3]]);
     let values: Vec<f32> = data[..length].chunks_exact(4).map(number).collect();
-    let grid = VolumeGrid::new([x, y, z], channels, values).map_err(|e| format!("{e}"))?;
     let corner = |first: usize| {
         Vec3::from_array([0, 1, 2].map(|axis| f32::from_le_bytes(word(first + axis))))
     };
-    Ok(VolumeFile { grid, bounds: Aabb { min: corner(5), max: corner(8) } })
+    let bounds = Aabb { min: corner(5), max: corner(8) };
+    Ok(Content { size: [x, y, z], channels, values, bounds })
 }
 
 #[cfg(test)]
@@ -130,5 +168,22 @@ mod tests {
         refused(&file(3, [1, 1, 1, 1, 6], &[1.0; 6]), "6 channels");
         refused(&file(3, [1, 1, 1, 1, 1], &[f32::NAN]), "cell (0, 0, 0)");
         refused(&file(3, [1, 2, 1, 1, 1], &[1.0, -2.0]), "-2 in cell (1, 0, 0)");
+    }
+
+    #[test]
+    fn distances_may_be_negative_and_fill_the_unit_cube() {
+        let values = [-1.0, 1.0, -2.0, 2.0, -3.0, 3.0, -4.0, 4.0];
+        let bytes = file(3, [1, 2, 2, 2, 1], &values);
+        let samples = parse_sdf(&bytes, Path::new("a.vol")).expect("a distance field");
+        assert_eq!((samples.size(), samples.values()), ([2; 3], values.as_slice()));
+        let refused = |bytes: &[u8], fragment: &str| {
+            let error = parse_sdf(bytes, Path::new("a.vol")).expect_err(fragment).to_string();
+            assert!(error.starts_with("a.vol: ") && error.contains(fragment), "{error}");
+        };
+        refused(b"VOL", "ends in its header");
+        refused(&file(3, [1, 2, 2, 2, 3], &[1.0; 24]), "has 1 channel, this file has 3");
+        refused(&file(3, [1, 2, 2, 2, 1], &[1.0; 7]), "do not fit in the 28 bytes");
+        refused(&file(3, [1, 2, 2, 1, 1], &[1.0; 4]), "2 × 2 × 1 samples cannot be used");
+        refused(&file(3, [1, 2, 2, 2, 1], &[f32::NAN; 8]), "sample (0, 0, 0) is not finite");
     }
 }

@@ -4,6 +4,7 @@ mod examples;
 mod materials;
 mod media;
 mod motion;
+mod shapes;
 
 use alloc::format;
 use alloc::string::{String, ToString};

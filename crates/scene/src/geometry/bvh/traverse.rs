@@ -23,7 +23,7 @@ impl Found {
     }
 }
 
-/// The objects that a hierarchy numbers: quadrics and instances.
+/// The objects that a hierarchy numbers: those of shapes, and instances.
 pub(in crate::geometry) trait Objects {
     /// Replaces `found` if the object is hit at a smaller `t`.
     fn closest<S: Simd>(&self, simd: S, object: u32, found: &mut Found);

@@ -101,7 +101,32 @@ pub(super) fn sphere_mesh(levels: u32) -> TriangleMesh {
     TriangleMesh::new(positions, Vec::new(), Vec::new(), triangles).expect("finite corners")
 }
 
-/// One of each shape, placed by a transform.
+/// Shapes on which no points are drawn: a distance field and both kinds of curves, placed by a similarity that grows by
+/// `scale`.
+pub(super) fn without_points(transform: &Transform, scale: f64) -> [Shape; 3] {
+    use super::{CurveBasis, CurvePoint, Curves, SdfGrid, SdfNormals, SdfSamples};
+    let ball = (0..6 * 6 * 6).map(|i| {
+        let p = Vec3::new((i % 6) as f32, (i / 6 % 6) as f32, (i / 36) as f32) * 0.2 - 0.5;
+        (p.length() - 0.42) * if i % 7 == 0 { 1.5 } else { 1.0 }
+    });
+    let samples = SdfSamples::new([6; 3], ball.collect()).expect("finite values");
+    let field = SdfGrid::new(samples, SdfNormals::Smooth, transform).expect("it has a surface");
+    let curves = |basis| {
+        let winding = (0..8).map(|i| {
+            let (sin, cos) = etendue_math::Real::sin_cos(i as f32 * 0.9);
+            let radius = (0.15 + 0.02 * (i % 3) as f32) * scale as f32;
+            CurvePoint { position: Vec3::new(cos, sin, 0.3 * i as f32 - 1.0) * 0.7, radius }
+        });
+        Curves::new(basis, winding.collect(), &[8], transform).expect("a curve")
+    };
+    [
+        Shape::Sdf(field.into()),
+        Shape::Curves(curves(CurveBasis::Linear).into()),
+        Shape::Curves(curves(CurveBasis::BSpline).into()),
+    ]
+}
+
+/// One of each shape on which points are drawn, placed by a transform.
 pub(super) fn one_of_each(transform: &Transform) -> [Shape; 5] {
     use super::{Cylinder, Disk, Rectangle, Sphere};
     let p1 = DVec3::new(0.3, -0.2, 1.0);

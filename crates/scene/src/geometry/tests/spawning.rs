@@ -2,7 +2,7 @@
 
 use etendue_math::glam::DVec3;
 
-use super::{Random, one_of_each};
+use super::{Random, one_of_each, without_points};
 use crate::geometry::{Geometry, GeometryBuilder, Ray, Shape, Transform};
 
 /// How many of `rays` random rays hit, and how many rays that leave these hits meet the same primitive
@@ -43,7 +43,8 @@ fn rays_that_leave_a_shape_do_not_hit_it_at_once_on_any_scale() {
     for scale in SCALES {
         for _ in 0..4 {
             let place = random.similarity(scale);
-            for (i, shape) in one_of_each(&place).into_iter().enumerate() {
+            let shapes = one_of_each(&place).into_iter().chain(without_points(&place, scale));
+            for (i, shape) in shapes.enumerate() {
                 let mut builder = GeometryBuilder::new();
                 builder.add_shape(shape);
                 let (hits, bad) = self_hits(&builder.build(), scale as f32, &mut random, 150);
@@ -62,7 +63,8 @@ fn rays_that_leave_an_instance_do_not_hit_it_at_once() {
         let mut builder = GeometryBuilder::new();
         // The group's own coordinates are of another size than the world's.
         let own = random.similarity(7.0);
-        let (group, _) = builder.add_group(one_of_each(&own).to_vec());
+        let shapes = one_of_each(&own).into_iter().chain(without_points(&own, 7.0));
+        let (group, _) = builder.add_group(shapes.collect());
         builder.add_instance(group, random.similarity(scale / 7.0));
         let (found, bad) = self_hits(&builder.build(), scale as f32, &mut random, 800);
         assert!(found > 50 && bad == 0, "scale {scale}: {bad} of {found}");

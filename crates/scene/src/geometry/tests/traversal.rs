@@ -6,7 +6,7 @@ use alloc::vec::Vec;
 use etendue_math::Real;
 use etendue_math::glam::{DVec3, Vec3};
 
-use super::{Random, one_of_each, soup};
+use super::{Random, one_of_each, soup, without_points};
 use crate::geometry::bvh::simd::Backend;
 use crate::geometry::{
     Geometry, GeometryBuilder, Hit, Ray, Shape, Sphere, Transform, TriangleMesh, triangle,
@@ -235,6 +235,28 @@ fn extreme_rays_give_no_nan() {
                     }
                 }
             }
+        }
+    }
+}
+
+#[test]
+fn voxels_and_parts_of_curves_are_found_as_by_trying_all() {
+    let mut random = Random(18);
+    for _ in 0..6 {
+        for shape in without_points(&random.similarity(1.5), 1.5) {
+            let whole = geometry([shape.clone()]);
+            let center = whole.bounds().center();
+            let mut found = 0;
+            for _ in 0..1500 {
+                let ray = random_ray(&mut random);
+                let ray = Ray { origin: ray.origin + center, ..ray };
+                let all = (0..shape.object_count()).filter_map(|i| shape.intersect_object(i, &ray));
+                let nearest = all.min_by(f32::total_cmp);
+                assert_eq!(whole.intersect(&ray).map(|hit| hit.t), nearest, "{ray:?}");
+                assert_eq!(whole.occluded(&ray), nearest.is_some(), "{ray:?}");
+                found += u32::from(nearest.is_some());
+            }
+            assert!(found > 50, "{found}");
         }
     }
 }

@@ -1,5 +1,6 @@
 //! `shapegroup` and `instance`.
 
+use alloc::collections::VecDeque;
 use alloc::format;
 use alloc::vec::Vec;
 
@@ -7,7 +8,7 @@ use super::super::Context;
 use super::super::reader::PluginReader;
 use super::{Item, SHAPES, group_of};
 use crate::SceneError;
-use crate::xml::Kind;
+use crate::xml::{Kind, NodeId};
 
 /// Shapes that are seen only where an instance puts them.
 pub(super) fn group<'a>(
@@ -15,12 +16,14 @@ pub(super) fn group<'a>(
     context: &mut Context<'a>,
 ) -> Result<Item, SceneError> {
     let mut surfaces = Vec::new();
-    for child in reader.children(Kind::Shape, context) {
+    let mut left: VecDeque<NodeId> =
+        reader.children(Kind::Shape, context).into_iter().map(|child| child.node).collect();
+    while let Some(id) = left.pop_front() {
+        let node = context.description.node(id);
         let refused = |what: &str| {
             let message = format!("a shapegroup cannot contain {what}");
-            SceneError::scene(child.location.clone(), message)
+            SceneError::scene(node.location.clone(), message)
         };
-        let node = context.description.node(child.node);
         // Before its translation: an instance inside its own group would never end.
         if node.plugin == "instance" {
             return Err(refused("instances"));
@@ -33,6 +36,11 @@ pub(super) fn group<'a>(
                 return Err(refused("shapes that move").help("let its instances move"));
             }
             Item::Surface(surface) => surfaces.push(surface),
+            Item::Merged(shapes) => {
+                for id in shapes.into_iter().rev() {
+                    left.push_front(id);
+                }
+            }
             Item::Group(_) | Item::Instance(..) => return Err(refused("groups or instances")),
         }
     }

@@ -56,7 +56,8 @@ pub(super) fn cube<'a>(
     surface(reader, context, Shape::Mesh(mesh), motion, "cube".into())
 }
 
-fn path(reader: &mut PluginReader<'_>) -> Result<PathBuf, SceneError> {
+/// The file of `filename`.
+pub(super) fn path(reader: &mut PluginReader<'_>) -> Result<PathBuf, SceneError> {
     match reader.string("filename")? {
         Some(name) => Ok(reader.node().search.resolve(name)),
         None => Err(reader.error("filename", format!("{} has no “filename”", reader.title()))),
@@ -71,16 +72,19 @@ fn tex_coords(reader: &mut PluginReader<'_>, default: bool) -> Result<TexCoords,
     })
 }
 
+/// An error of a shape's file, with the place of the shape.
+pub(super) fn asset_error(mut error: SceneError, reader: &PluginReader<'_>) -> SceneError {
+    error.message = format!("{} (shape at {})", error.message, reader.node().location);
+    error
+}
+
 fn mesh<'a>(
     reader: &mut PluginReader<'a>,
     context: &mut Context<'a>,
     path: PathBuf,
     file: Result<MeshFile, SceneError>,
 ) -> Result<Item, SceneError> {
-    let file = file.map_err(|mut error| {
-        error.message = format!("{} (shape at {})", error.message, reader.node().location);
-        error
-    })?;
+    let file = file.map_err(|error| asset_error(error, reader))?;
     context.files.push(path);
     context.warnings.extend(file.warnings);
     let (to_world, motion) = placed(reader, context)?;

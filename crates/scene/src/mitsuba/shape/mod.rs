@@ -1,8 +1,11 @@
 //! Shapes.
 
+mod curves;
 mod group;
+mod merge;
 mod mesh;
 mod primitive;
+mod sdf;
 mod surface;
 
 pub(super) use mesh::shaded;
@@ -24,13 +27,17 @@ use crate::xml::NodeId;
 
 /// The shapes there are.
 const SHAPES: &Family<Item> = &[
+    ("bsplinecurve", curves::bsplinecurve),
     ("cube", mesh::cube),
     ("cylinder", primitive::cylinder),
     ("disk", primitive::disk),
     ("instance", group::instance),
+    ("linearcurve", curves::linearcurve),
+    ("merge", merge::merge),
     ("obj", mesh::obj),
     ("ply", mesh::ply),
     ("rectangle", primitive::rectangle),
+    ("sdfgrid", sdf::sdfgrid),
     ("serialized", mesh::serialized),
     ("shapegroup", group::group),
     ("sphere", primitive::sphere),
@@ -45,6 +52,8 @@ pub(super) enum Item {
     Group(Vec<Surface>),
     /// A group at a place.
     Instance(GroupId, Placement),
+    /// Shapes that are merged: each is added by itself.
+    Merged(Vec<NodeId>),
 }
 
 /// A shape, what it is made of and what it emits.
@@ -75,6 +84,12 @@ pub(super) fn add(context: &mut Context<'_>, id: NodeId) -> Result<(), SceneErro
         Item::Group(surfaces) => {
             let group = add_group(context, surfaces);
             context.groups.insert(id, group);
+        }
+        Item::Merged(shapes) => {
+            for shape in shapes {
+                add(context, shape)?;
+            }
+            return Ok(());
         }
         Item::Instance(group, placement) => {
             context.origins.note(Element::Instances, node);

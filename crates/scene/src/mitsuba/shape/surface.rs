@@ -59,7 +59,13 @@ pub(super) fn surface<'a>(
             .help("its shape must stand still while the shutter is open"));
     }
     if emission.is_some() && shape.area_total() == 0.0 {
-        return Err(SceneError::scene(location.clone(), "a light needs an area, this has none"));
+        let error = SceneError::scene(location.clone(), "a light needs an area, this has none");
+        return Err(match shape {
+            Shape::Sdf(_) | Shape::Curves(_) => {
+                error.help("points are not drawn on distance fields and curves: use a mesh")
+            }
+            _ => error,
+        });
     }
     if let (Some(Emission::Ahead(_)), Some(child)) = (emission, emitter)
         && !matches!(shape, Shape::Rectangle(_) | Shape::Disk(_))
@@ -116,7 +122,8 @@ fn check_motion(shape: &Shape, motion: &Motion) -> Result<(), ShapeError> {
         }
     }
     let Aabb { min, max } = motion.bounds(&shape.bounds());
-    if shape.area_total() > 0.0 && !(min.is_finite() && max.is_finite()) {
+    let is_out = !(min.is_finite() && max.is_finite());
+    if is_out && !shape.bounds().is_empty() {
         return Err(ShapeError::OutOfRange);
     }
     Ok(())
