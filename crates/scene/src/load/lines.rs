@@ -21,13 +21,23 @@ pub(super) struct Lines<'a> {
 
 impl<'a> Lines<'a> {
     pub(super) fn new(text: &'a [u8]) -> Self {
-        Self { rest: Some(text.strip_prefix(b"\xef\xbb\xbf").unwrap_or(text)), number: 0 }
+        Self::after(0, text.strip_prefix(b"\xef\xbb\xbf").unwrap_or(text))
+    }
+
+    /// The lines of what follows the first `number` physical lines of a text.
+    pub(super) fn after(number: u32, rest: &'a [u8]) -> Self {
+        Self { rest: Some(rest), number }
+    }
+
+    /// The number of the last physical line that was read.
+    pub(super) fn number(&self) -> u32 {
+        self.number
     }
 
     fn physical(&mut self) -> Option<&'a [u8]> {
         let rest = self.rest?;
         self.number = self.number.saturating_add(1);
-        let Some(end) = rest.iter().position(|&b| b == b'\n' || b == b'\r') else {
+        let Some(end) = line_end(rest) else {
             self.rest = None;
             return Some(rest);
         };
@@ -56,9 +66,65 @@ impl<'a> Iterator for Lines<'a> {
     }
 }
 
+/// The place of the first LF or CR, looked for in eight bytes at a time.
+fn line_end(text: &[u8]) -> Option<usize> {
+    const EACH: u64 = 0x0101_0101_0101_0101;
+    // The top bit of the lowest byte that is 0, and perhaps of others above it.
+    let zeros = |x: u64| x.wrapping_sub(EACH) & !x & (EACH << 7);
+    let (words, rest) = text.as_chunks::<8>();
+    for (number, &word) in words.iter().enumerate() {
+        let word = u64::from_le_bytes(word);
+        let found = zeros(word ^ EACH * u64::from(b'\n')) | zeros(word ^ EACH * u64::from(b'\r'));
+        if found != 0 {
+            return Some(8 * number + found.trailing_zeros() as usize / 8);
+        }
+    }
+    let end = rest.iter().position(|&b| b == b'\n' || b == b'\r')?;
+    Some(text.len() - rest.len() + end)
+}
+
+/// The place after the last LF at which a logical line ends. It may miss some, after comments that end with a backslash.
+pub(super) fn last_end(text: &[u8]) -> Option<usize> {
+    (0..text.len()).rev().find(|&at| ends_line(text, at)).map(|at| at + 1)
+}
+
+/// The place after the first LF at or after a byte at which a logical line ends, or the end of the text.
+pub(super) fn end_after(text: &[u8], start: usize) -> usize {
+    (start..text.len()).find(|&at| ends_line(text, at)).map_or(text.len(), |at| at + 1)
+}
+
+/// Whether a byte is an LF that no backslash precedes.
+fn ends_line(text: &[u8], at: usize) -> bool {
+    let before = || {
+        let line = &text[..at];
+        line.strip_suffix(b"\r").unwrap_or(line)
+    };
+    text[at] == b'\n' && !before().ends_with(b"\\")
+}
+
 /// The fields of a line up to a comment.
-pub(super) fn fields(text: &[u8]) -> impl Iterator<Item = &[u8]> {
-    text.split(u8::is_ascii_whitespace).filter(|f| !f.is_empty()).take_while(|f| f[0] != b'#')
+pub(super) fn fields(text: &[u8]) -> Fields<'_> {
+    Fields(text)
+}
+
+/// The fields that are left of a line.
+pub(super) struct Fields<'a>(&'a [u8]);
+
+impl<'a> Iterator for Fields<'a> {
+    type Item = &'a [u8];
+
+    #[inline]
+    fn next(&mut self) -> Option<&'a [u8]> {
+        let text = self.0.trim_ascii_start();
+        if text.first().is_none_or(|&b| b == b'#') {
+            self.0 = &[];
+            return None;
+        }
+        let end = text.iter().position(u8::is_ascii_whitespace).unwrap_or(text.len());
+        let (field, rest) = text.split_at(end);
+        self.0 = rest;
+        Some(field)
+    }
 }
 
 /// The keyword of a line and the rest of it, trimmed.
@@ -101,6 +167,20 @@ mod tests {
         let expected =
             vec![(1, b"a".to_vec()), (2, b"b".to_vec()), (3, b"c".to_vec()), (4, b"d".to_vec())];
         assert_eq!(lines(b"a\nb\r\nc\rd"), expected);
+    }
+
+    #[test]
+    fn line_ends_are_found_at_every_place() {
+        for at in 0..20 {
+            for end in *b"\n\r" {
+                // Neighbours of the ends, and bytes whose differences from them borrow.
+                let mut text = [b'\x0b', b'\x0c', b'\x09', 0, 0x8a, 0x8d].repeat(5);
+                assert_eq!(line_end(&text), None);
+                text[at] = end;
+                text[at + 3] = b'\n';
+                assert_eq!(line_end(&text), Some(at));
+            }
+        }
     }
 
     #[test]
