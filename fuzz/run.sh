@@ -27,6 +27,8 @@ seconds=$((${TOTAL:-$((seconds * ${#names[@]}))} / ${#names[@]}))
 
 mkdir -p fuzz/artifacts fuzz/corpus
 cargo run -q -p etendue-scene --example fuzz_seeds -- fuzz/corpus
+cp tests/scenes/plugins/*.xml fuzz/corpus/xml
+cp tests/scenes/plugins/*.xml fuzz/corpus/scene
 cargo +nightly fuzz build
 
 failures=0

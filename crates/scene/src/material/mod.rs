@@ -3,6 +3,7 @@
 //! A [`Material`] names textures; [`Materials::prepare`] looks them up at one point and gives the
 //! reflection model there, a [`PreparedBsdf`].
 
+mod coated;
 mod compensated;
 mod composed;
 mod dispersive;
@@ -59,6 +60,22 @@ pub enum Material {
         /// Which of their two forms.
         form: OrenNayarForm,
     },
+    /// A thin sheet that scatters to both sides.
+    DiffuseTransmitter {
+        /// Share of light that it reflects.
+        reflectance: TextureId,
+        /// Share of light that it lets through; where both exceed 1 together, both are scaled.
+        transmittance: TextureId,
+    },
+    /// Phong's model, modified: a diffuse part and a power of the cosine around the mirror direction.
+    Phong {
+        /// Share of light in the diffuse part.
+        diffuse_reflectance: TextureId,
+        /// Share of light in the lobe; where both exceed 1 together, both are scaled.
+        specular_reflectance: TextureId,
+        /// The power.
+        exponent: TextureId,
+    },
     /// An interface between two transparent media.
     Dielectric {
         /// Index of the medium behind the surface relative to the one in front.
@@ -113,6 +130,19 @@ pub enum Material {
         nested: MaterialId,
         /// Where that light goes.
         how: Compensation,
+    },
+    /// A surface under a smooth dielectric layer.
+    Coated {
+        /// Index of the layer relative to what is above it.
+        eta: Ior<f32>,
+        /// Absorption coefficient of the layer, per unit of its thickness.
+        absorption: TextureId,
+        /// Thickness of the layer, which only its absorption depends on.
+        thickness: f32,
+        /// Factor of light reflected by the interface, 1 physically.
+        specular_reflectance: TextureId,
+        /// The surface, an opaque one.
+        nested: MaterialId,
     },
     /// A surface that is partly not there.
     Mask {
@@ -241,6 +271,9 @@ pub enum MaterialError {
     /// It puts something that light can pass on one side of a surface.
     #[error("only an opaque material can be used on one side of a surface")]
     TransmissiveSide,
+    /// It puts a layer on something that light can pass.
+    #[error("only an opaque material, of one side, can have a coating")]
+    TransmissiveBase,
 }
 
 /// All materials of a scene.
@@ -253,8 +286,8 @@ impl Materials {
     /// Adds a material.
     ///
     /// # Errors
-    /// A family that the program was compiled without; a reference to a material that was not added before; a [`Material::TwoSided`] of materials
-    /// that transmit, are masked or are two-sided themselves; a [`Material::BumpMap`] inside another or inside a
+    /// A family that the program was compiled without; a reference to a material that was not added before; a [`Material::TwoSided`]
+    /// or [`Material::Coated`] of materials that transmit, are masked or are two-sided themselves; a [`Material::BumpMap`] inside another or inside a
     /// [`Material::NormalMap`].
     pub fn add(&mut self, material: Material) -> Result<MaterialId, MaterialError> {
         if let Some((family, false)) = material.family() {
@@ -276,6 +309,12 @@ impl Materials {
                     self.get(part).ok_or(MaterialError::Unknown(part.0))?;
                 }
             }
+            Material::Coated { nested, .. } => {
+                let base = self.get(nested).ok_or(MaterialError::Unknown(nested.0))?;
+                if !self.is_one_sided(base) {
+                    return Err(MaterialError::TransmissiveBase);
+                }
+            }
             Material::TwoSided { front, back } => {
                 for side in [front, back] {
                     let material = self.get(side).ok_or(MaterialError::Unknown(side.0))?;
@@ -295,6 +334,8 @@ impl Materials {
         match material {
             Material::Diffuse { .. }
             | Material::RoughDiffuse { .. }
+            | Material::Phong { .. }
+            | Material::Coated { .. }
             | Material::Conductor { .. }
             | Material::Plastic { .. } => true,
             Material::Principled(textures) => textures.spec_trans.is_none(),
@@ -306,7 +347,8 @@ impl Materials {
                 let part = |id| self.get(id).is_some_and(|part| self.is_one_sided(part));
                 material.nested().all(part)
             }
-            Material::Dielectric { .. }
+            Material::DiffuseTransmitter { .. }
+            | Material::Dielectric { .. }
             | Material::ThinDielectric { .. }
             | Material::PrincipledThin(_)
             | Material::Mask { .. }
@@ -378,6 +420,12 @@ impl Material {
         let textures = match *self {
             Self::Diffuse { reflectance } => Vec::from([reflectance]),
             Self::RoughDiffuse { reflectance, sigma, .. } => Vec::from([reflectance, sigma]),
+            Self::DiffuseTransmitter { reflectance, transmittance } => {
+                Vec::from([reflectance, transmittance])
+            }
+            Self::Phong { diffuse_reflectance, specular_reflectance, exponent } => {
+                Vec::from([diffuse_reflectance, specular_reflectance, exponent])
+            }
             Self::Dielectric {
                 roughness, specular_reflectance, specular_transmittance, ..
             } => {
@@ -400,6 +448,9 @@ impl Material {
             }
             Self::Principled(ref textures) => textures.textures(),
             Self::PrincipledThin(ref textures) => textures.textures(),
+            Self::Coated { absorption, specular_reflectance, .. } => {
+                Vec::from([absorption, specular_reflectance])
+            }
             Self::Mask { opacity, .. } => Vec::from([opacity]),
             Self::Blend { weight, .. } => Vec::from([weight]),
             Self::NormalMap { normal, .. } => Vec::from([normal]),
@@ -422,15 +473,18 @@ impl Material {
             Self::Dielectric { .. } | Self::ThinDielectric { .. } | Self::Conductor { .. } => {
                 ("smooth", cfg!(feature = "smooth"))
             }
+            Self::Phong { .. } => ("phong", cfg!(feature = "phong")),
             Self::Plastic { .. } => ("layered", cfg!(feature = "layered")),
             Self::Principled(_) | Self::PrincipledThin(_) => {
                 ("principled", cfg!(feature = "principled"))
             }
-            Self::Blend { .. } | Self::NormalMap { .. } | Self::BumpMap { .. } => {
-                ("composed", cfg!(feature = "composed"))
-            }
+            Self::Coated { .. }
+            | Self::Blend { .. }
+            | Self::NormalMap { .. }
+            | Self::BumpMap { .. } => ("composed", cfg!(feature = "composed")),
             Self::Diffuse { .. }
             | Self::RoughDiffuse { .. }
+            | Self::DiffuseTransmitter { .. }
             | Self::Mask { .. }
             | Self::TwoSided { .. }
             | Self::Null => return None,
@@ -455,6 +509,7 @@ impl Material {
     pub fn nested(&self) -> impl Iterator<Item = MaterialId> + use<> {
         let parts = match *self {
             Self::Compensated { nested, .. }
+            | Self::Coated { nested, .. }
             | Self::Mask { nested, .. }
             | Self::NormalMap { nested, .. }
             | Self::BumpMap { nested, .. } => [Some(nested), None],

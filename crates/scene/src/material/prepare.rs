@@ -1,14 +1,15 @@
 //! From a material to its reflection model at one point.
 
 use etendue_brdf::{
-    Alpha, ComplexIor, Ior, KullaContyConductor, Lambert, Microfacets, Null, Opacity, OrenNayar,
-    OrenNayarQualitative, Plastic, Reflectance, RoughConductor, RoughDielectric, RoughPlastic,
-    Sigma, SmoothConductor, SmoothDielectric, ThinDielectric,
+    Alpha, ComplexIor, DiffuseTransmitter, Exponent, Ior, KullaContyConductor, Lambert,
+    Microfacets, Null, Opacity, OrenNayar, OrenNayarQualitative, Phong, Plastic, Reflectance,
+    RoughConductor, RoughDielectric, RoughPlastic, Sigma, SmoothConductor, SmoothDielectric,
+    ThinDielectric,
 };
 
 use etendue_math::glam::Vec3;
 
-use super::composed::{Composed, Composition, Parts};
+use super::composed::{Coat, Composed, Composition, Parts};
 use super::model::{PrincipledModel, PrincipledThinModel};
 use super::perturbed::Perturbed;
 use super::prepared::Placed;
@@ -221,6 +222,14 @@ fn model<'a, C: Channels>(material: Option<&'a Material>, at: At<'a, C>) -> Mode
                 }
             }
         }
+        Material::DiffuseTransmitter { reflectance, transmittance } => {
+            let [r, t] = [reflectance, transmittance].map(|id| at.reflectance(id));
+            Model::DiffuseTransmitter(DiffuseTransmitter::clamped(r, t))
+        }
+        Material::Phong { diffuse_reflectance, specular_reflectance, exponent } => {
+            let [kd, ks] = [diffuse_reflectance, specular_reflectance].map(|id| at.reflectance(id));
+            Model::Phong(Phong::clamped(kd, ks, Exponent::clamped(at.value(exponent))))
+        }
         Material::Dielectric {
             eta,
             ref dispersion,
@@ -287,6 +296,10 @@ fn model<'a, C: Channels>(material: Option<&'a Material>, at: At<'a, C>) -> Mode
         Material::Blend { weight, parts } => {
             let weight = Opacity::clamped(at.value(weight));
             at.composed(Composition::Blend { parts, weight })
+        }
+        Material::Coated { eta, absorption, thickness, specular_reflectance, nested } => {
+            let coat = Coat { eta, absorption, thickness, specular_reflectance };
+            at.composed(Composition::Coated { nested, coat })
         }
         Material::NormalMap { normal, options, nested } => {
             let color = at.textures.color(normal, at.point);
