@@ -26,7 +26,7 @@ fi
 seconds=$((${TOTAL:-$((seconds * ${#names[@]}))} / ${#names[@]}))
 
 mkdir -p fuzz/artifacts fuzz/corpus
-cargo run -q -p etendue-scene --example fuzz_seeds -- fuzz/corpus
+cargo run -q --release -p etendue-scene --example fuzz_seeds -- fuzz/corpus
 cp tests/scenes/plugins/*.xml fuzz/corpus/xml
 cp tests/scenes/plugins/*.xml fuzz/corpus/scene
 cargo +nightly fuzz build

@@ -100,19 +100,28 @@ def memory(process):
     return [int(fields[name].split()[0]) * 1024 for name in ("VmHWM", "VmRSS")]
 
 
+def work(process):
+    """Seconds that processors have spent for a process."""
+    with open(f"/proc/{process.pid}/stat", encoding="ascii") as file:
+        fields = file.read().rsplit(")", 1)[1].split()
+    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+
 def load(command):
-    """Seconds, bytes per triangle at most and afterwards, of one loading in a process of its own."""
+    """Seconds, those of processors, bytes per triangle at most and afterwards, of one loading in a process of its own."""
     process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
     assert process.stdout.readline() == "ready\n"
     with open(f"/proc/{process.pid}/clear_refs", "w", encoding="ascii") as file:
         file.write("5")  # forget what was used most until now
     _, before = memory(process)
+    worked = work(process)
     process.stdin.write("\n")
     process.stdin.flush()
     seconds, triangles = process.stdout.readline().split()
     most, after = memory(process)
+    worked = work(process) - worked
     process.communicate("\n")
-    return float(seconds), (most - before) / int(triangles), (after - before) / int(triangles), int(triangles)
+    return float(seconds), worked, (most - before) / int(triangles), (after - before) / int(triangles), int(triangles)
 
 
 def main():
@@ -124,9 +133,9 @@ def main():
     options = parser.parse_args()
 
     lines = [
-        "| file | MB | million triangles | here, s | Mitsuba, s | ratio | bytes per triangle, most | afterwards "
-        "| Mitsuba, most | afterwards |",
-        "| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |",
+        "| file | MB | million triangles | here, s | Mitsuba, s | ratio | here, processor s | Mitsuba, processor s "
+        "| bytes per triangle, most | afterwards | Mitsuba, most | afterwards |",
+        "| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |",
     ]
     with tempfile.TemporaryDirectory() as folder:
         for number, name in enumerate(GRIDS):
@@ -134,12 +143,12 @@ def main():
             commands = [[options.program, path], [sys.executable, "-c", MITSUBA, path]]
             rounds = [[load(command) for command in commands] for _ in range(options.rounds)]
             ratio = statistics.median(here[0] / there[0] for here, there in rounds)
-            (here, here_most, here_after, triangles), (there, there_most, there_after, _) = (
+            (here, here_work, here_most, here_after, triangles), (there, there_work, there_most, there_after, _) = (
                 [statistics.median(column) for column in zip(*side)] for side in zip(*rounds)
             )
             lines.append(
                 f"| {name} | {os.path.getsize(path) / 1e6:.0f} | {triangles / 1e6:.2f} | {here:.3f} | {there:.3f} "
-                f"| {ratio:.2f} | {here_most:.0f} | {here_after:.0f} | {there_most:.0f} | {there_after:.0f} |"
+                f"| {ratio:.2f} | {here_work:.2f} | {there_work:.2f} | {here_most:.0f} | {here_after:.0f} | {there_most:.0f} | {there_after:.0f} |"
             )
             os.remove(path)
     print("\n".join(lines))
