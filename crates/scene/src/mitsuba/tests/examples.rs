@@ -1,6 +1,8 @@
 //! The examples of plugins.
 
-use std::collections::BTreeSet;
+use alloc::collections::BTreeSet;
+use alloc::vec::Vec;
+
 use std::path::PathBuf;
 
 use super::*;
