@@ -3,7 +3,7 @@
 #[path = "../tests/samples/mod.rs"]
 mod samples;
 
-use std::error::Error;
+use core::error::Error;
 use std::fs;
 use std::path::Path;
 

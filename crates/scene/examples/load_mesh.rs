@@ -4,7 +4,7 @@
 //! normals, given smooth ones. No hierarchy is built. The program waits for a line before it loads and after it has printed the
 //! seconds and the number of triangles, so that `tests/measure/load_speed.py` can ask the system for its memory meanwhile.
 
-use std::error::Error;
+use core::error::Error;
 use std::io::stdin;
 use std::path::Path;
 use std::time::Instant;

@@ -69,12 +69,14 @@ impl<'a> Iterator for Lines<'a> {
 /// The place of the first LF or CR, looked for in eight bytes at a time.
 fn line_end(text: &[u8]) -> Option<usize> {
     const EACH: u64 = 0x0101_0101_0101_0101;
+    const LINE_FEEDS: u64 = EACH * b'\n' as u64;
+    const CARRIAGE_RETURNS: u64 = EACH * b'\r' as u64;
     // The top bit of the lowest byte that is 0, and perhaps of others above it.
     let zeros = |x: u64| x.wrapping_sub(EACH) & !x & (EACH << 7);
     let (words, rest) = text.as_chunks::<8>();
     for (number, &word) in words.iter().enumerate() {
         let word = u64::from_le_bytes(word);
-        let found = zeros(word ^ EACH * u64::from(b'\n')) | zeros(word ^ EACH * u64::from(b'\r'));
+        let found = zeros(word ^ LINE_FEEDS) | zeros(word ^ CARRIAGE_RETURNS);
         if found != 0 {
             return Some(8 * number + found.trailing_zeros() as usize / 8);
         }

@@ -106,8 +106,9 @@ mod tests {
     fn sums_run_in_the_order_of_the_triangles_across_batches() {
         // Every triangle meets the first vertex, where the order of a sum of so many shows.
         let count = BATCH as u32 + 1000;
-        let positions: Vec<[f32; 3]> =
-            (0..count + 2).map(|i| [(i as f32).sin(), (i as f32).cos(), (i % 7) as f32]).collect();
+        let positions: Vec<[f32; 3]> = (0..count + 2)
+            .map(|i| [Real::sin(i as f32), Real::cos(i as f32), (i % 7) as f32])
+            .collect();
         let triangles: Vec<[u32; 3]> = (1..=count).map(|i| [0, i, i + 1]).collect();
         let mesh = mesh(&positions, &triangles);
         let mut sum = DVec3::ZERO;

@@ -61,7 +61,7 @@ pub struct ObjMesh {
 /// A file that cannot be read, and everything [`parse_obj`] refuses.
 pub fn load_obj(path: &Path, tex_coords: TexCoords) -> Result<ObjScene, SceneError> {
     let (file, size) = open_asset(path)?;
-    Parser::new(path, tex_coords, Some(&mut read_asset)).read(file.take(size), Sizes::USUAL)
+    Parser::new(path, tex_coords, Some(&mut read_asset)).read(file, size, Sizes::USUAL)
 }
 
 /// An OBJ file as one mesh, its groups and materials ignored; warns where it has no faces.
@@ -70,7 +70,7 @@ pub fn load_obj(path: &Path, tex_coords: TexCoords) -> Result<ObjScene, SceneErr
 /// A file that cannot be read, and everything [`parse_obj`] refuses.
 pub fn load_obj_merged(path: &Path, tex_coords: TexCoords) -> Result<MeshFile, SceneError> {
     let (file, size) = open_asset(path)?;
-    let scene = Parser::new(path, tex_coords, None).read(file.take(size), Sizes::USUAL)?;
+    let scene = Parser::new(path, tex_coords, None).read(file, size, Sizes::USUAL)?;
     Ok(merged(scene, path))
 }
 
@@ -100,7 +100,7 @@ pub fn parse_obj(
     tex_coords: TexCoords,
     mut read: impl FnMut(&Path) -> Result<Vec<u8>, SceneError>,
 ) -> Result<ObjScene, SceneError> {
-    Parser::new(path, tex_coords, Some(&mut read)).read(bytes, Sizes::USUAL)
+    Parser::new(path, tex_coords, Some(&mut read)).read(bytes, bytes.len() as u64, Sizes::USUAL)
 }
 
 /// OBJ text as one mesh, its groups and materials ignored; warns where it has no faces. `path`
@@ -113,7 +113,10 @@ pub fn parse_obj_merged(
     path: &Path,
     tex_coords: TexCoords,
 ) -> Result<MeshFile, SceneError> {
-    Ok(merged(Parser::new(path, tex_coords, None).read(bytes, Sizes::USUAL)?, path))
+    Ok(merged(
+        Parser::new(path, tex_coords, None).read(bytes, bytes.len() as u64, Sizes::USUAL)?,
+        path,
+    ))
 }
 
 /// The only part of a file that was read as one mesh.
@@ -125,11 +128,14 @@ fn merged(scene: ObjScene, path: &Path) -> MeshFile {
 /// The most MTL files of an OBJ file, lest a small file ask for endless reading.
 const MOST_LIBRARIES: usize = 100;
 
+/// Fetches another file.
+type ReadFile<'a> = dyn FnMut(&Path) -> Result<Vec<u8>, SceneError> + 'a;
+
 struct Parser<'a> {
     path: &'a Path,
     tex_coords: TexCoords,
     /// Reads MTL files; without it groups and materials are ignored.
-    library: Option<&'a mut dyn FnMut(&Path) -> Result<Vec<u8>, SceneError>>,
+    library: Option<&'a mut ReadFile<'a>>,
     positions: Vec<Vec3>,
     uvs: Vec<Vec2>,
     normals: Vec<Vec3>,
@@ -140,11 +146,7 @@ struct Parser<'a> {
 }
 
 impl<'a> Parser<'a> {
-    fn new(
-        path: &'a Path,
-        tex_coords: TexCoords,
-        library: Option<&'a mut dyn FnMut(&Path) -> Result<Vec<u8>, SceneError>>,
-    ) -> Self {
+    fn new(path: &'a Path, tex_coords: TexCoords, library: Option<&'a mut ReadFile<'a>>) -> Self {
         Self {
             path,
             tex_coords,
@@ -161,8 +163,13 @@ impl<'a> Parser<'a> {
 
     /// Reads a text: its pieces on all cores, while this thread joins what the piece before holds. No result depends on how the
     /// text is cut.
-    fn read(mut self, text: impl Read + Send, sizes: Sizes) -> Result<ObjScene, SceneError> {
-        let mut pieces = Pieces::new(text, sizes.piece);
+    fn read(
+        mut self,
+        text: impl Read + Send,
+        length: u64,
+        sizes: Sizes,
+    ) -> Result<ObjScene, SceneError> {
+        let mut pieces = Pieces::new(text, length, sizes.piece);
         let (path, tex_coords) = (self.path, self.tex_coords);
         let mut before = Count::default();
         let mut read = || -> io::Result<Vec<Statements>> {
@@ -171,14 +178,17 @@ impl<'a> Parser<'a> {
             let text = piece.strip_prefix(b"\xef\xbb\xbf").filter(|_| is_first).unwrap_or(&piece);
             let texts = tasks(text, sizes.task);
             let counts: Vec<Count> = texts.par_iter().map(|text| Count::of(text)).collect();
-            let starts = counts.iter().map(|&count| {
-                let start = before;
-                before = before.and(count);
-                start
-            });
-            let starts: Vec<Count> = starts.collect();
-            let read = |(text, start)| Statements::read(text, path, tex_coords, start);
-            Ok(texts.into_par_iter().zip(starts).map(read).collect())
+            let starts: Vec<Count> = counts
+                .iter()
+                .map(|&count| {
+                    let start = before;
+                    before = before.and(count);
+                    start
+                })
+                .collect();
+            let parts = texts.into_par_iter().zip(starts).zip(counts);
+            let read = |((text, start), own)| Statements::read(text, path, tex_coords, start, own);
+            Ok(parts.map(read).collect())
         };
         let mut next = read();
         loop {

@@ -14,20 +14,23 @@ pub(super) struct Sizes {
 
 impl Sizes {
     /// Enough tasks for many cores; so few bytes that they stay in a processor's cache.
-    pub(super) const USUAL: Self = Self { piece: 1 << 23, task: 1 << 18 };
+    pub(super) const USUAL: Self = Self { piece: 1 << 22, task: 1 << 17 };
 }
 
 /// The pieces of a text, read one after the other: of a large file only one is in memory.
 pub(super) struct Pieces<R> {
     source: R,
+    /// How many bytes are left in the source.
+    left: u64,
     size: usize,
     /// What was read beyond the last line of the last piece.
     rest: Vec<u8>,
 }
 
 impl<R: Read> Pieces<R> {
-    pub(super) fn new(source: R, size: usize) -> Self {
-        Self { source, size, rest: Vec::new() }
+    /// The pieces, of about `size` bytes, of the first `length` bytes of a source.
+    pub(super) fn new(source: R, length: u64, size: usize) -> Self {
+        Self { source, left: length, size, rest: Vec::new() }
     }
 
     /// The next piece, empty at the end of the text. It is as long as its longest line at least.
@@ -35,12 +38,16 @@ impl<R: Read> Pieces<R> {
         let mut piece = core::mem::take(&mut self.rest);
         loop {
             // Twice as much each time, so that very long lines take linear time.
-            let wanted = self.size.max(piece.len()) as u64;
-            if self.source.by_ref().take(wanted).read_to_end(&mut piece)? == 0 {
+            let wanted = self.left.min(self.size.max(piece.len()) as u64);
+            piece.reserve(wanted as usize);
+            let found = self.source.by_ref().take(wanted).read_to_end(&mut piece)?;
+            if found == 0 {
                 return Ok(piece);
             }
+            self.left -= found as u64;
             if let Some(end) = last_end(&piece) {
-                self.rest = piece.split_off(end);
+                self.rest = piece[end..].into();
+                piece.truncate(end);
                 return Ok(piece);
             }
         }
@@ -67,7 +74,7 @@ mod tests {
     use alloc::vec;
 
     fn pieces(text: &[u8], size: usize) -> Vec<Vec<u8>> {
-        let mut pieces = Pieces::new(text, size);
+        let mut pieces = Pieces::new(text, text.len() as u64, size);
         core::iter::from_fn(|| Some(pieces.next().expect("memory")).filter(|p| !p.is_empty()))
             .collect()
     }

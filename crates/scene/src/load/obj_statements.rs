@@ -84,9 +84,20 @@ pub(super) struct Statements {
 }
 
 impl Statements {
-    /// Reads a part of the text of `path`, with `before` in front of it. `path` stands in messages.
-    pub(super) fn read(text: &[u8], path: &Path, tex_coords: TexCoords, before: Count) -> Self {
-        let mut statements = Self::default();
+    /// Reads a part of the text of `path`, which holds `own`, with `before` in front of it. `path` stands in messages.
+    pub(super) fn read(
+        text: &[u8],
+        path: &Path,
+        tex_coords: TexCoords,
+        before: Count,
+        own: Count,
+    ) -> Self {
+        let mut statements = Self {
+            positions: Vec::with_capacity(own.positions),
+            uvs: Vec::with_capacity(own.uvs),
+            normals: Vec::with_capacity(own.normals),
+            ..Self::default()
+        };
         for line in Lines::after(before.lines, text) {
             if let Err(message) = statements.line(&line, tex_coords, before) {
                 statements.flaw =
@@ -222,7 +233,8 @@ mod tests {
         let text = b"v 1 2 3\nvt 0\n\n v 0 0 0\\\n1\nvn 0 0 1\nf 1 2 3\n# v";
         let expected = Count { lines: 8, positions: 2, uvs: 1, normals: 1 };
         assert_eq!(Count::of(text), expected);
-        let read = Statements::read(text, Path::new("a"), TexCoords::AsWritten, Count::default());
+        let none = Count::default();
+        let read = Statements::read(text, Path::new("a"), TexCoords::AsWritten, none, none);
         let held = (read.positions.len(), read.uvs.len(), read.normals.len());
         assert_eq!(held, (expected.positions, expected.uvs, expected.normals));
     }

@@ -11,7 +11,7 @@ fn merged(text: &str) -> Result<MeshFile, SceneError> {
         // However a text is cut, it means the same.
         for (piece, task) in [(1, 1), (7, 3), (50, 20)] {
             let parser = Parser::new(Path::new(PATH), TexCoords::AsWritten, None);
-            let cut = parser.read(text.as_bytes(), Sizes { piece, task });
+            let cut = parser.read(text.as_bytes(), text.len() as u64, Sizes { piece, task });
             assert_eq!(cut.map(|scene| super::merged(scene, Path::new(PATH))), whole, "{piece}");
         }
     }
@@ -173,7 +173,7 @@ fn parts_do_not_depend_on_how_the_text_is_cut() {
     let read = |sizes| {
         let mut library = |_: &Path| Ok(b"newmtl 0\nfoo\nnewmtl 20".to_vec());
         let parser = Parser::new(Path::new(PATH), TexCoords::Flipped, Some(&mut library));
-        parser.read(text.as_bytes(), sizes).expect("a valid file")
+        parser.read(text.as_bytes(), text.len() as u64, sizes).expect("a valid file")
     };
     let whole = read(Sizes::USUAL);
     assert!(whole.meshes.len() == 6 && whole.warnings.len() > 5, "{:?}", whole.warnings);

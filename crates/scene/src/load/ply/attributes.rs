@@ -113,7 +113,7 @@ impl Attributes {
     /// Sets what all records say, one per vertex or triangle, on all cores; `number` is that of a property in a record.
     pub(super) fn collect<'a>(
         &mut self,
-        records: impl IndexedParallelIterator<Item = &'a [u8]> + Clone,
+        records: &(impl IndexedParallelIterator<Item = &'a [u8]> + Clone),
         number: impl Fn(&[u8], usize) -> f64 + Sync,
     ) {
         for (group, values) in self.groups.iter().zip(&mut self.values) {

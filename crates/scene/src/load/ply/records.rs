@@ -71,7 +71,7 @@ pub(super) fn vertices(
             return None;
         }
     }
-    attributes.collect(records, |record, column| places[column].read(record, order));
+    attributes.collect(&records, |record, column| places[column].read(record, order));
     Some((Vertices { positions, normals, uvs }, length))
 }
 
