@@ -91,7 +91,11 @@ fn call<T: Scalar>(model: &impl Bsdf<Color = T>, wo: Vec3<T>, wi: Vec3<T>, u_lob
     let Some(sample) = model.sample(wo, u_lobe, u) else { return };
     let (Density::Continuous(p) | Density::Delta(p)) = sample.density;
     assert!(
-        valid(sample.weight) && valid(p) && p > T::ZERO && valid(sample.eta) && sample.wi.is_finite(),
+        valid(sample.weight)
+            && valid(p)
+            && p > T::ZERO
+            && valid(sample.eta)
+            && sample.wi.is_finite(),
         "wo {wo:?} u_lobe {u_lobe:?} u {u:?}: {sample:?}"
     );
 }

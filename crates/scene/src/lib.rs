@@ -26,6 +26,7 @@ pub mod xml;
 mod diagnosis;
 #[cfg(feature = "std")]
 mod error;
+mod parallel;
 
 pub use diagnosis::Diagnosis;
 pub use effect::Effect;

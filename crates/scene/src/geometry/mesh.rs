@@ -7,8 +7,9 @@ use etendue_math::{Frame, Vector3};
 
 use super::surface::LocalSurface;
 use super::triangle::{Corners, Facet};
-use super::{Aabb, AttributeOwner, MeshAttribute, ShapeSample, Transform};
+use super::{Aabb, AttributeOwner, MeshArrays, MeshAttribute, MeshError, ShapeSample, Transform};
 use crate::Color;
+use crate::parallel;
 
 /// A triangle mesh whose indices and coordinates have been checked.
 ///
@@ -16,118 +17,50 @@ use crate::Color;
 /// side from which its vertices run anticlockwise. Flipping exchanges front and back.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct TriangleMesh {
-    positions: Vec<Vec3>,
-    normals: Vec<Vec3>,
-    uvs: Vec<Vec2>,
-    triangles: Vec<[u32; 3]>,
+    arrays: MeshArrays,
     /// One per triangle, its normal on the front side.
     facets: Vec<Facet>,
-    attributes: Vec<MeshAttribute>,
     flipped: bool,
 }
 
-/// Why a mesh is refused.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum MeshError {
-    /// A triangle names a vertex that does not exist.
-    #[error("triangle {triangle} refers to vertex {vertex}, but there are only {vertices}")]
-    IndexOutOfRange {
-        /// The triangle, counted from 0.
-        triangle: usize,
-        /// The index it names, counted from 0.
-        vertex: u32,
-        /// How many vertices there are.
-        vertices: usize,
-    },
-    /// A coordinate is NaN or infinite.
-    #[error("the {attribute} of vertex {vertex} is not finite")]
-    NotFinite {
-        /// `position`, `normal` or `uv`.
-        attribute: &'static str,
-        /// The vertex, counted from 0.
-        vertex: usize,
-    },
-    /// Normals or texture coordinates are there for some vertices only.
-    #[error("there are {found} {attribute}s for {vertices} vertices")]
-    LengthMismatch {
-        /// `normal` or `uv`.
-        attribute: &'static str,
-        /// How many there are.
-        found: usize,
-        /// How many vertices there are.
-        vertices: usize,
-    },
-    /// An attribute has more or fewer values than the mesh has vertices or triangles.
-    #[error("an attribute has {found} values for {expected} vertices or triangles")]
-    AttributeLength {
-        /// How many there are.
-        found: usize,
-        /// How many there should be.
-        expected: usize,
-    },
-    /// A value of an attribute is NaN, infinite or negative.
-    #[error("value {index} of an attribute is negative or not finite")]
-    AttributeValue {
-        /// Which, counted from 0.
-        index: usize,
-    },
+impl From<MeshArrays> for TriangleMesh {
+    fn from(arrays: MeshArrays) -> Self {
+        Self { arrays, ..Self::default() }.with_facets()
+    }
 }
 
 impl TriangleMesh {
-    /// A mesh from its parts. `normals` and `uvs` are empty or as long as `positions`; normals need
-    /// not have unit length, and a zero normal stands for the geometric one.
+    /// A mesh from its parts, as [`MeshArrays::new`].
     ///
     /// # Errors
-    /// An index out of range, a coordinate that is not finite, arrays of unequal length.
+    /// As [`MeshArrays::new`].
     pub fn new(
         positions: Vec<Vec3>,
         normals: Vec<Vec3>,
         uvs: Vec<Vec2>,
         triangles: Vec<[u32; 3]>,
     ) -> Result<Self, MeshError> {
-        let vertices = positions.len();
-        for (attribute, found) in [("normal", normals.len()), ("uv", uvs.len())] {
-            if found != 0 && found != vertices {
-                return Err(MeshError::LengthMismatch { attribute, found, vertices });
-            }
-        }
-        let finite = |attribute, bad: Option<usize>| match bad {
-            Some(vertex) => Err(MeshError::NotFinite { attribute, vertex }),
-            None => Ok(()),
-        };
-        finite("position", positions.iter().position(|p| !p.is_finite()))?;
-        finite("normal", normals.iter().position(|n| !n.is_finite()))?;
-        finite("uv", uvs.iter().position(|t| !t.is_finite()))?;
-        for (triangle, corners) in triangles.iter().enumerate() {
-            if let Some(&vertex) = corners.iter().find(|&&v| v as usize >= vertices) {
-                return Err(MeshError::IndexOutOfRange { triangle, vertex, vertices });
-            }
-        }
-        let (facets, attributes) = (Vec::new(), Vec::new());
-        let mut mesh =
-            Self { positions, normals, uvs, triangles, facets, attributes, flipped: false };
-        mesh.compute_facets();
-        Ok(mesh)
+        MeshArrays::new(positions, normals, uvs, triangles).map(Self::from)
     }
 
     /// Vertex positions.
     pub fn positions(&self) -> &[Vec3] {
-        &self.positions
+        &self.arrays.positions
     }
 
     /// Vertex normals, or nothing.
     pub fn normals(&self) -> &[Vec3] {
-        &self.normals
+        &self.arrays.normals
     }
 
     /// Vertex texture coordinates, or nothing.
     pub fn uvs(&self) -> &[Vec2] {
-        &self.uvs
+        &self.arrays.uvs
     }
 
     /// Three vertex indices per triangle.
     pub fn triangles(&self) -> &[[u32; 3]] {
-        &self.triangles
+        &self.arrays.triangles
     }
 
     /// The same mesh with other vertex normals, or with none.
@@ -135,47 +68,32 @@ impl TriangleMesh {
     /// # Errors
     /// As [`new`](Self::new).
     pub fn with_normals(self, normals: Vec<Vec3>) -> Result<Self, MeshError> {
-        let Self { flipped, attributes, .. } = self;
-        let mesh = Self::new(self.positions, normals, self.uvs, self.triangles)?;
-        let mesh = Self { attributes, ..mesh };
-        Ok(if flipped { mesh.flipped() } else { mesh })
+        let arrays = self.arrays.with_normals(normals)?;
+        Ok(Self { arrays, ..self }.with_facets())
     }
 
     /// The same mesh with one more attribute.
     ///
     /// # Errors
     /// Another number of values than of vertices or triangles, a value that is NaN, infinite or negative.
-    pub fn with_attribute(mut self, attribute: MeshAttribute) -> Result<Self, MeshError> {
-        let expected = match attribute.owner {
-            AttributeOwner::Vertex => self.positions.len(),
-            AttributeOwner::Face => self.triangles.len(),
-        };
-        let found = attribute.values.len();
-        if found != expected {
-            return Err(MeshError::AttributeLength { found, expected });
-        }
-        let valid = |color: &Color| color.to_array().iter().all(|c| *c >= 0.0 && c.is_finite());
-        if let Some(index) = attribute.values.iter().position(|color| !valid(color)) {
-            return Err(MeshError::AttributeValue { index });
-        }
-        self.attributes.push(attribute);
-        Ok(self)
+    pub fn with_attribute(self, attribute: MeshAttribute) -> Result<Self, MeshError> {
+        let arrays = self.arrays.with_attribute(attribute)?;
+        Ok(Self { arrays, ..self })
     }
 
     /// The same mesh with some of its attributes.
-    pub fn keep_attributes(mut self, keep: impl FnMut(&MeshAttribute) -> bool) -> Self {
-        self.attributes.retain(keep);
-        self
+    pub fn keep_attributes(self, keep: impl FnMut(&MeshAttribute) -> bool) -> Self {
+        Self { arrays: self.arrays.keep_attributes(keep), ..self }
     }
 
     /// What the mesh knows of its surface beyond positions, normals and texture coordinates.
     pub fn attributes(&self) -> &[MeshAttribute] {
-        &self.attributes
+        &self.arrays.attributes
     }
 
     /// The attribute of a name at the point of a triangle with the barycentric weights `b₁, b₂`.
     pub(crate) fn attribute(&self, name: &str, triangle: u32, [b1, b2]: [f32; 2]) -> Option<Color> {
-        let attribute = self.attributes.iter().find(|attribute| attribute.name == name)?;
+        let attribute = self.arrays.attributes.iter().find(|attribute| attribute.name == name)?;
         match attribute.owner {
             AttributeOwner::Vertex => {
                 let [a, b, c] = self.corner_values(&attribute.values, triangle)?;
@@ -195,45 +113,38 @@ impl TriangleMesh {
         Self { flipped: !self.flipped, ..self }
     }
 
-    /// The mesh with positions moved by a transform and normals by its transposed inverse.
-    ///
-    /// The order of the vertices stays, so mirroring turns a mesh without normals inside out, as
-    /// it does in Mitsuba.
+    /// The mesh moved by a transform, as [`MeshArrays::transformed`].
     ///
     /// # Errors
     /// A vertex that leaves the range of `f32`.
-    pub fn transformed(mut self, transform: &Transform) -> Result<Self, MeshError> {
-        for p in &mut self.positions {
-            *p = transform.point(*p);
-        }
-        for n in &mut self.normals {
-            *n = transform.normal(*n);
-        }
-        match self.positions.iter().position(|p| !p.is_finite()) {
-            Some(vertex) => Err(MeshError::NotFinite { attribute: "position", vertex }),
-            None => {
-                self.compute_facets();
-                Ok(self)
-            }
-        }
+    pub fn transformed(self, transform: &Transform) -> Result<Self, MeshError> {
+        let arrays = self.arrays.transformed(transform)?;
+        Ok(Self { arrays, ..self }.with_facets())
     }
 
-    fn compute_facets(&mut self) {
+    /// The mesh with the facets of its arrays.
+    fn with_facets(self) -> Self {
+        let Self { arrays, mut facets, flipped } = self;
         let front = |&[i, j, k]: &[u32; 3]| {
             let indices = [i as usize, j as usize, k as usize];
-            let mut facet = Facet::of(indices.map(|v| self.positions[v]));
-            let outward: Vec3 = match self.normals.as_slice() {
+            let mut facet = Facet::of(indices.map(|v| arrays.positions[v]));
+            let outward: Vec3 = match arrays.normals.as_slice() {
                 [] => facet.normal,
                 // One decision per triangle: the front must not change within it.
                 normals => indices.iter().map(|&v| normals[v]).sum(),
             };
             let reversed = facet.normal.dot(outward) < 0.0;
-            if reversed != self.flipped {
+            if reversed != flipped {
                 facet.normal = -facet.normal;
             }
             facet
         };
-        self.facets = self.triangles.iter().map(front).collect();
+        if facets.len() == arrays.triangles.len() {
+            parallel::put(&mut facets, &arrays.triangles, front);
+        } else {
+            facets = parallel::map(&arrays.triangles, front);
+        }
+        Self { arrays, facets, flipped }
     }
 
     /// One facet per triangle.
@@ -242,20 +153,22 @@ impl TriangleMesh {
         &self.facets
     }
 
-    /// The facet of a triangle, `triangle < self.triangles().len()`.
+    /// The facet of a triangle, `triangle < self.arrays.triangles().len()`.
     #[inline(always)]
     pub(crate) fn facet(&self, triangle: u32) -> &Facet {
         &self.facets[triangle as usize]
     }
 
-    /// The corners of a triangle, `triangle < self.triangles().len()`.
+    /// The corners of a triangle, `triangle < self.arrays.triangles().len()`.
     #[inline(always)]
     pub(crate) fn corners(&self, triangle: u32) -> Corners {
         self.facet(triangle).corners
     }
 
     pub(crate) fn bounds(&self) -> Aabb {
-        Aabb::from_points(self.triangles.iter().flatten().map(|&v| self.positions[v as usize]))
+        Aabb::from_points(
+            self.arrays.triangles.iter().flatten().map(|&v| self.arrays.positions[v as usize]),
+        )
     }
 
     /// The point of a triangle with the barycentric weights `b₁, b₂` of its later corners.
@@ -287,14 +200,14 @@ impl TriangleMesh {
 
     #[inline(always)]
     fn shading_normal(&self, triangle: u32, [b1, b2]: [f32; 2]) -> Option<Vec3> {
-        let [n0, n1, n2] = self.corner_values(&self.normals, triangle)?;
+        let [n0, n1, n2] = self.corner_values(&self.arrays.normals, triangle)?;
         let normal = Vector3::try_normalize(n0 * (1.0 - b1 - b2) + n1 * b1 + n2 * b2)?;
         Some(if self.flipped { -normal } else { normal })
     }
 
     #[inline(always)]
     fn uv(&self, triangle: u32, [b1, b2]: [f32; 2]) -> [f32; 2] {
-        match self.corner_values(&self.uvs, triangle) {
+        match self.corner_values(&self.arrays.uvs, triangle) {
             Some([t0, t1, t2]) => (t0 * (1.0 - b1 - b2) + t1 * b1 + t2 * b2).to_array(),
             None => [b1, b2],
         }
@@ -302,7 +215,7 @@ impl TriangleMesh {
 
     #[inline(always)]
     fn tangent(&self, triangle: u32, [v0, v1, v2]: &Corners) -> Option<Vec3> {
-        let [t0, t1, t2] = self.corner_values(&self.uvs, triangle)?;
+        let [t0, t1, t2] = self.corner_values(&self.arrays.uvs, triangle)?;
         let (d1, d2) = (t1 - t0, t2 - t0);
         let (e1, e2) = (*v1 - *v0, *v2 - *v0);
         let scale = 1.0 / (d1.x * d2.y - d1.y * d2.x);
@@ -320,10 +233,12 @@ impl TriangleMesh {
             let partials = [(e1 * d2.y - e2 * d1.y) * scale, (e2 * d1.x - e1 * d2.x) * scale];
             partials.iter().all(|d| d.is_finite()).then_some(partials)
         };
-        self.corner_values(&self.uvs, triangle).and_then(of_coordinates).unwrap_or_else(|| {
-            let Frame { s, t, .. } = Frame::<f32>::from_normal(facet.normal);
-            [s, t]
-        })
+        self.corner_values(&self.arrays.uvs, triangle).and_then(of_coordinates).unwrap_or_else(
+            || {
+                let Frame { s, t, .. } = Frame::<f32>::from_normal(facet.normal);
+                [s, t]
+            },
+        )
     }
 
     /// What the mesh knows of the three corners; `None` where it knows nothing of the kind.
@@ -332,7 +247,7 @@ impl TriangleMesh {
         if values.is_empty() {
             return None;
         }
-        let [i, j, k] = self.triangles[triangle as usize];
+        let [i, j, k] = self.arrays.triangles[triangle as usize];
         Some([values[i as usize], values[j as usize], values[k as usize]])
     }
 

@@ -1,4 +1,4 @@
-//! Asset files: regular files only, read whole.
+//! Asset files: regular files only.
 
 use alloc::format;
 use alloc::vec::Vec;
@@ -17,18 +17,26 @@ use crate::error::{Location, SceneError};
 /// [`ErrorKind::Io`](crate::ErrorKind::Io) for a file that is missing, unreadable or not regular;
 /// [`ErrorKind::Resource`](crate::ErrorKind::Resource) for one that does not fit in memory.
 pub fn read_asset(path: &Path) -> Result<Vec<u8>, SceneError> {
+    let (file, size) = open_asset(path)?;
+    let mut bytes = Vec::new();
+    usize::try_from(size).ok().and_then(|n| bytes.try_reserve_exact(n).ok()).ok_or_else(|| {
+        SceneError::resource(Location::file(path), format!("{size} bytes do not fit in memory"))
+    })?;
+    file.take(size).read_to_end(&mut bytes).map_err(|error| SceneError::io(path, &error))?;
+    Ok(bytes)
+}
+
+/// A regular file and its size, of which no more should be read.
+///
+/// # Errors
+/// As [`read_asset`].
+pub(super) fn open_asset(path: &Path) -> Result<(File, u64), SceneError> {
     let io = |error: io::Error| SceneError::io(path, &error);
     let metadata = fs::metadata(path).map_err(io)?;
     if !metadata.is_file() {
         return Err(io(io::Error::new(io::ErrorKind::InvalidInput, "not a regular file")));
     }
-    let size = metadata.len();
-    let mut bytes = Vec::new();
-    usize::try_from(size).ok().and_then(|n| bytes.try_reserve_exact(n).ok()).ok_or_else(|| {
-        SceneError::resource(Location::file(path), format!("{size} bytes do not fit in memory"))
-    })?;
-    File::open(path).map_err(io)?.take(size).read_to_end(&mut bytes).map_err(io)?;
-    Ok(bytes)
+    Ok((File::open(path).map_err(io)?, metadata.len()))
 }
 
 #[cfg(test)]

@@ -136,6 +136,15 @@ const MOST_PIXELS: u64 = 1 << 28;
 const FREE: u64 = 1 << 26;
 const RATIO: u64 = 64;
 
+/// No file holds more samples per byte: deflate yields at most 1032 bytes for one, JPEG a block of 64 for a bit, run lengths fewer.
+const MOST_PER_BYTE: u64 = 2048;
+
+/// How many samples a file of so many bytes may hold.
+fn most_samples(bytes: &[u8]) -> u64 {
+    let length = bytes.len() as u64;
+    (FREE + RATIO * length).min(MOST_PER_BYTE * length)
+}
+
 /// Checks declared dimensions before anything is allocated for them.
 fn check_size(
     width: u64,
@@ -149,7 +158,7 @@ fn check_size(
     }
     let pixels = width.saturating_mul(height);
     let samples = pixels.saturating_mul(channels as u64);
-    let allowed = FREE + RATIO * bytes.len() as u64;
+    let allowed = most_samples(bytes);
     let message = if pixels > MOST_PIXELS {
         format!("{width} × {height} pixels are more than the {MOST_PIXELS} allowed")
     } else if samples > allowed {

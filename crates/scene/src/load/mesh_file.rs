@@ -7,7 +7,7 @@ use std::path::Path;
 use etendue_math::glam::Vec2;
 
 use crate::error::{Location, SceneError, Warning};
-use crate::geometry::{MeshError, TriangleMesh};
+use crate::geometry::{MeshArrays, MeshError};
 
 /// A mesh file read as one mesh.
 #[derive(Clone, Debug, PartialEq)]
@@ -15,7 +15,7 @@ pub struct MeshFile {
     /// The mesh's own name, or that of the file without its extension.
     pub name: String,
     /// The mesh. Its normals are empty where the file has none.
-    pub mesh: TriangleMesh,
+    pub mesh: MeshArrays,
     /// The file asks for faceted shading; its normals, if it has any, are dropped.
     pub face_normals: bool,
     /// What was skipped or looks suspicious.

@@ -19,7 +19,10 @@
 //!
 //! # Non-goals
 //! Nothing here interprets: transforms, missing normals ([`smooth_normals`]), textures and BSDFs are
-//! the business of whoever asked for the file. Files are read whole, by one thread.
+//! the business of whoever asked for the file.
+//!
+//! # Cores
+//! Binary PLY and OBJ files are read on all cores (rayon's global pool); the result does not depend on their number.
 
 mod curves;
 mod file;
@@ -30,6 +33,8 @@ mod mtl;
 mod normals;
 mod obj;
 mod obj_parts;
+mod obj_pieces;
+mod obj_statements;
 mod ply;
 mod serialized;
 pub mod srgb;

@@ -6,7 +6,8 @@ use alloc::vec::Vec;
 use etendue_math::Real;
 use etendue_math::glam::{DVec3, Vec3};
 
-use crate::geometry::TriangleMesh;
+use crate::geometry::MeshArrays;
+use crate::parallel;
 
 /// Unit vertex normals `n_v`: the mean of the normals of the triangles around a vertex, weighted by
 /// their angles there.
@@ -25,33 +26,61 @@ use crate::geometry::TriangleMesh;
 ///
 /// # Source
 /// Thürmer and Wüthrich, "Computing vertex normals from polygonal facets", JGT 3(1), 1998.
-pub fn smooth_normals(mesh: &TriangleMesh) -> Vec<Vec3> {
+pub fn smooth_normals(mesh: &MeshArrays) -> Vec<Vec3> {
+    let shares = |triangles| parallel::map(triangles, |t| Share::of(t, mesh.positions()));
     let mut sums = vec![DVec3::ZERO; mesh.positions().len()];
-    for triangle in mesh.triangles() {
-        let p = triangle.map(|v| mesh.positions()[v as usize].as_dvec3());
+    let mut ready: Vec<Share> = Vec::new();
+    let mut done = mesh.triangles().iter();
+    // Angles are computed on all cores; meanwhile one of them adds those of the batch before, in the order of the triangles.
+    for batch in mesh.triangles().chunks(BATCH).chain([[].as_slice()]) {
+        let add = || {
+            for (share, triangle) in ready.iter().zip(done.by_ref()) {
+                for (&vertex, angle) in triangle.iter().zip(share.angles) {
+                    sums[vertex as usize] += share.normal * angle;
+                }
+            }
+        };
+        let (next, ()) = rayon::join(|| shares(batch), add);
+        ready = next;
+    }
+    parallel::map(&sums, |n| n.normalize_or_zero().as_vec3())
+}
+
+/// How many triangles are in memory with their angles at a time.
+const BATCH: usize = 1 << 16;
+
+/// What a triangle adds to the normals of its vertices.
+struct Share {
+    /// Its unit normal, or zero where it has no area.
+    normal: DVec3,
+    angles: [f64; 3],
+}
+
+impl Share {
+    fn of(triangle: &[u32; 3], positions: &[Vec3]) -> Self {
+        let p = triangle.map(|v| positions[v as usize].as_dvec3());
         let edges = [p[1] - p[0], p[2] - p[1], p[0] - p[2]];
         let cross = edges[0].cross(edges[1]);
         let twice_area = cross.length();
         // A vanishing product keeps nothing of the direction, and 1 / 0 would poison the sum.
         if twice_area <= 0.0 {
-            continue;
+            return Self { normal: DVec3::ZERO, angles: [0.0; 3] };
         }
-        let normal = cross / twice_area;
-        for (corner, &vertex) in triangle.iter().enumerate() {
+        let angle = |corner: usize| {
             let cosine = -edges[corner].dot(edges[(corner + 2) % 3]);
-            sums[vertex as usize] += normal * Real::atan2(twice_area, cosine);
-        }
+            Real::atan2(twice_area, cosine)
+        };
+        Self { normal: cross / twice_area, angles: [angle(0), angle(1), angle(2)] }
     }
-    sums.into_iter().map(|n| n.normalize_or_zero().as_vec3()).collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn mesh(positions: &[[f32; 3]], triangles: &[[u32; 3]]) -> TriangleMesh {
+    fn mesh(positions: &[[f32; 3]], triangles: &[[u32; 3]]) -> MeshArrays {
         let positions = positions.iter().map(|&p| Vec3::from(p)).collect();
-        TriangleMesh::new(positions, vec![], vec![], triangles.to_vec()).expect("a valid mesh")
+        MeshArrays::new(positions, vec![], vec![], triangles.to_vec()).expect("a valid mesh")
     }
 
     #[test]
@@ -71,6 +100,23 @@ mod tests {
         let corner = smooth_normals(&mesh(&positions, &triangles))[0];
         // Three angles of π/2 in f64, rounded once to f32.
         assert!((corner - Vec3::splat(-1.0 / 3f32.sqrt())).length() < 2e-7, "{corner}");
+    }
+
+    #[test]
+    fn sums_run_in_the_order_of_the_triangles_across_batches() {
+        // Every triangle meets the first vertex, where the order of a sum of so many shows.
+        let count = BATCH as u32 + 1000;
+        let positions: Vec<[f32; 3]> = (0..count + 2)
+            .map(|i| [Real::sin(i as f32), Real::cos(i as f32), (i % 7) as f32])
+            .collect();
+        let triangles: Vec<[u32; 3]> = (1..=count).map(|i| [0, i, i + 1]).collect();
+        let mesh = mesh(&positions, &triangles);
+        let mut sum = DVec3::ZERO;
+        for triangle in mesh.triangles() {
+            let share = Share::of(triangle, mesh.positions());
+            sum += share.normal * share.angles[0];
+        }
+        assert_eq!(smooth_normals(&mesh)[0], sum.normalize().as_vec3());
     }
 
     #[test]

@@ -14,18 +14,22 @@ use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
+use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
 use etendue_math::glam::{Vec2, Vec3};
+use rayon::prelude::*;
 
 use crate::error::{ErrorKind, Location, SceneError, Warning};
-use crate::geometry::TriangleMesh;
+use crate::geometry::MeshArrays;
 
-use super::file::read_asset;
-use super::lines::{Line, Lines, fields, quote, real, statement};
+use super::file::{open_asset, read_asset};
+use super::lines::{fields, quote};
 use super::mesh_file::{MeshFile, TexCoords, mesh_error, stem};
 use super::mtl::{MtlMaterial, parse_mtl, relative};
-use super::obj_parts::{Corner, Parts};
+use super::obj_parts::Parts;
+use super::obj_pieces::{Pieces, Sizes, tasks};
+use super::obj_statements::{Count, Mark, Statements};
 use super::warnings::KindWarnings;
 
 /// An OBJ file with its materials.
@@ -48,7 +52,7 @@ pub struct ObjMesh {
     pub material: Option<usize>,
     /// One vertex for each distinct triple of position, texture coordinate and normal. Where some
     /// corners have no normal it is zero; where some have no texture coordinate it is (0, 0).
-    pub mesh: TriangleMesh,
+    pub mesh: MeshArrays,
 }
 
 /// An OBJ file, its parts apart, with the MTL files it names.
@@ -56,7 +60,8 @@ pub struct ObjMesh {
 /// # Errors
 /// A file that cannot be read, and everything [`parse_obj`] refuses.
 pub fn load_obj(path: &Path, tex_coords: TexCoords) -> Result<ObjScene, SceneError> {
-    parse_obj(&read_asset(path)?, path, tex_coords, read_asset)
+    let (file, size) = open_asset(path)?;
+    Parser::new(path, tex_coords, Some(&mut read_asset)).read(file, size, Sizes::USUAL)
 }
 
 /// An OBJ file as one mesh, its groups and materials ignored; warns where it has no faces.
@@ -64,7 +69,9 @@ pub fn load_obj(path: &Path, tex_coords: TexCoords) -> Result<ObjScene, SceneErr
 /// # Errors
 /// A file that cannot be read, and everything [`parse_obj`] refuses.
 pub fn load_obj_merged(path: &Path, tex_coords: TexCoords) -> Result<MeshFile, SceneError> {
-    parse_obj_merged(&read_asset(path)?, path, tex_coords)
+    let (file, size) = open_asset(path)?;
+    let scene = Parser::new(path, tex_coords, None).read(file, size, Sizes::USUAL)?;
+    Ok(merged(scene, path))
 }
 
 /// OBJ text, its parts apart. `path` stands in messages; MTL files are named relative to its folder
@@ -93,18 +100,7 @@ pub fn parse_obj(
     tex_coords: TexCoords,
     mut read: impl FnMut(&Path) -> Result<Vec<u8>, SceneError>,
 ) -> Result<ObjScene, SceneError> {
-    let mut parser = Parser::new(path, tex_coords);
-    let mut materials = Vec::new();
-    for line in Lines::new(bytes) {
-        let (keyword, rest) = statement(&line.text);
-        match keyword {
-            b"o" | b"g" => parser.parts.name(&String::from_utf8_lossy(rest)),
-            b"usemtl" => parser.parts.material(&String::from_utf8_lossy(rest)),
-            b"mtllib" => materials.extend(parser.library(&line, rest, &mut read)?),
-            _ => parser.statement(&line)?,
-        }
-    }
-    parser.scene(materials)
+    Parser::new(path, tex_coords, Some(&mut read)).read(bytes, bytes.len() as u64, Sizes::USUAL)
 }
 
 /// OBJ text as one mesh, its groups and materials ignored; warns where it has no faces. `path`
@@ -117,145 +113,143 @@ pub fn parse_obj_merged(
     path: &Path,
     tex_coords: TexCoords,
 ) -> Result<MeshFile, SceneError> {
-    let mut parser = Parser::new(path, tex_coords);
-    for line in Lines::new(bytes) {
-        match statement(&line.text).0 {
-            b"o" | b"g" | b"usemtl" | b"mtllib" => {}
-            _ => parser.statement(&line)?,
-        }
-    }
-    let scene = parser.scene(Vec::new())?;
+    Ok(merged(
+        Parser::new(path, tex_coords, None).read(bytes, bytes.len() as u64, Sizes::USUAL)?,
+        path,
+    ))
+}
+
+/// The only part of a file that was read as one mesh.
+fn merged(scene: ObjScene, path: &Path) -> MeshFile {
     let mesh = scene.meshes.into_iter().next().map(|part| part.mesh).unwrap_or_default();
-    Ok(MeshFile { name: stem(path), mesh, face_normals: false, warnings: scene.warnings })
+    MeshFile { name: stem(path), mesh, face_normals: false, warnings: scene.warnings }
 }
 
 /// The most MTL files of an OBJ file, lest a small file ask for endless reading.
 const MOST_LIBRARIES: usize = 100;
 
+/// Fetches another file.
+type ReadFile<'a> = dyn FnMut(&Path) -> Result<Vec<u8>, SceneError> + 'a;
+
 struct Parser<'a> {
     path: &'a Path,
     tex_coords: TexCoords,
+    /// Reads MTL files; without it groups and materials are ignored.
+    library: Option<&'a mut ReadFile<'a>>,
     positions: Vec<Vec3>,
     uvs: Vec<Vec2>,
     normals: Vec<Vec3>,
     parts: Parts,
+    materials: Vec<MtlMaterial>,
     libraries: BTreeSet<PathBuf>,
     warnings: KindWarnings,
 }
 
 impl<'a> Parser<'a> {
-    fn new(path: &'a Path, tex_coords: TexCoords) -> Self {
+    fn new(path: &'a Path, tex_coords: TexCoords, library: Option<&'a mut ReadFile<'a>>) -> Self {
         Self {
             path,
             tex_coords,
+            library,
             positions: Vec::new(),
             uvs: Vec::new(),
             normals: Vec::new(),
             parts: Parts::default(),
+            materials: Vec::new(),
             libraries: BTreeSet::new(),
             warnings: KindWarnings::default(),
         }
     }
 
-    /// Reads a statement about vertices or faces.
-    fn statement(&mut self, line: &Line<'_>) -> Result<(), SceneError> {
-        let mut fields = fields(&line.text);
-        let Some(keyword) = fields.next() else { return Ok(()) };
-        let at = |message| SceneError::scene(Location::line(self.path, line.number), message);
-        match keyword {
-            b"v" => {
-                let position = coordinates::<3>(&mut fields, 3).map_err(at)?;
-                self.positions.push(position.into());
+    /// Reads a text: its pieces on all cores, while this thread joins what the piece before holds. No result depends on how the
+    /// text is cut.
+    fn read(
+        mut self,
+        text: impl Read + Send,
+        length: u64,
+        sizes: Sizes,
+    ) -> Result<ObjScene, SceneError> {
+        let mut pieces = Pieces::new(text, length, sizes.piece);
+        let (path, tex_coords) = (self.path, self.tex_coords);
+        let mut before = Count::default();
+        let mut read = || -> io::Result<Vec<Statements>> {
+            let is_first = before == Count::default();
+            let piece = pieces.next()?;
+            let text = piece.strip_prefix(b"\xef\xbb\xbf").filter(|_| is_first).unwrap_or(&piece);
+            let texts = tasks(text, sizes.task);
+            let counts: Vec<Count> = texts.par_iter().map(|text| Count::of(text)).collect();
+            let starts: Vec<Count> = counts
+                .iter()
+                .map(|&count| {
+                    let start = before;
+                    before = before.and(count);
+                    start
+                })
+                .collect();
+            let parts = texts.into_par_iter().zip(starts).zip(counts);
+            let read = |((text, start), own)| Statements::read(text, path, tex_coords, start, own);
+            Ok(parts.map(read).collect())
+        };
+        let mut next = read();
+        loop {
+            let current = next.map_err(|error| SceneError::io(path, &error))?;
+            if current.is_empty() {
+                break;
             }
-            b"vn" => self.normals.push(coordinates::<3>(&mut fields, 3).map_err(at)?.into()),
-            b"vt" => {
-                let uv = coordinates::<2>(&mut fields, 1).map_err(at)?;
-                self.uvs.push(self.tex_coords.turn(uv.into()));
-            }
-            b"f" => self.face(line, fields)?,
-            b"s" | b"vp" => {}
-            _ => self.warnings.add(|| Location::line(self.path, line.number), &quote(keyword)),
+            next = Ok(Vec::new());
+            rayon::in_place_scope(|scope| {
+                scope.spawn(|_| next = read());
+                current.into_iter().try_for_each(|statements| self.join(statements))
+            })?;
         }
-        Ok(())
+        self.scene()
     }
 
-    fn face<'t>(
-        &mut self,
-        line: &Line<'_>,
-        fields: impl Iterator<Item = &'t [u8]>,
-    ) -> Result<(), SceneError> {
-        let here = || Location::line(self.path, line.number);
-        let mut fan = [0; 2];
-        let mut corners = 0usize;
-        for field in fields {
-            let corner = self.corner(field).map_err(|m| SceneError::scene(here(), m))?;
-            let vertex = self.parts.vertex(corner, &self.positions, &self.uvs, &self.normals);
-            let vertex =
-                vertex.ok_or_else(|| SceneError::resource(here(), "more than 2³² vertices"))?;
-            match corners {
-                0 | 1 => fan[corners] = vertex,
-                _ => {
-                    self.parts.triangle([fan[0], fan[1], vertex]);
-                    fan[1] = vertex;
-                }
+    /// Adds what a part of the text holds.
+    fn join(&mut self, statements: Statements) -> Result<(), SceneError> {
+        let Statements { positions, uvs, normals, corners, faces, marks, flaw, .. } = statements;
+        self.positions.extend(positions);
+        self.uvs.extend(uvs);
+        self.normals.extend(normals);
+        self.parts.positions(self.positions.len());
+        let mut marks = marks.into_iter().peekable();
+        let mut corners = corners.as_slice();
+        for (number, size) in faces.into_iter().enumerate() {
+            while let Some((_, line, mark)) = marks.next_if(|(before, ..)| *before <= number) {
+                self.mark(line, mark)?;
             }
-            corners += 1;
+            let (face, others) = corners.split_at(size);
+            corners = others;
+            if self.parts.face(face).is_none() {
+                let here = Location::file(self.path);
+                return Err(SceneError::resource(here, "more than 2³² vertices"));
+            }
         }
-        if corners < 3 {
-            self.warnings.add(here, "a face of fewer than three vertices");
-        }
-        Ok(())
+        marks.try_for_each(|(_, line, mark)| self.mark(line, mark))?;
+        flaw.map_or(Ok(()), Err)
     }
 
-    /// Reads `v`, `v/vt`, `v//vn` or `v/vt/vn`.
-    fn corner(&self, field: &[u8]) -> Result<Corner, String> {
-        let mut parts = field.split(|&b| b == b'/');
-        let mut next = |what, count, required| match parts.next() {
-            Some(part) if required || !part.is_empty() => index(part, what, count),
-            _ => Ok(Corner::NONE),
-        };
-        let corner = Corner {
-            position: next("vertex", self.positions.len(), true)?,
-            uv: next("texture coordinate", self.uvs.len(), false)?,
-            normal: next("normal", self.normals.len(), false)?,
-        };
-        match parts.next() {
-            None => Ok(corner),
-            Some(_) => Err(format!("{} has more than three indices", quote(field))),
+    fn mark(&mut self, line: u32, mark: Mark) -> Result<(), SceneError> {
+        match mark {
+            Mark::Ignored(kind) => self.warnings.add(|| Location::line(self.path, line), &kind),
+            _ if self.library.is_none() => {}
+            Mark::Name(name) => self.parts.name(name),
+            Mark::Material(name) => self.parts.material(name),
+            Mark::Library(names) => self.libraries(line, &names)?,
         }
+        Ok(())
     }
 
     /// Reads the MTL files of a `mtllib` statement: one whose name may hold spaces, or several.
-    fn library(
-        &mut self,
-        line: &Line<'_>,
-        names: &[u8],
-        read: &mut impl FnMut(&Path) -> Result<Vec<u8>, SceneError>,
-    ) -> Result<Vec<MtlMaterial>, SceneError> {
-        let mut materials = Vec::new();
-        let mut add = |name: &[u8]| -> Result<(), SceneError> {
-            let path = relative(self.path, name);
-            if !self.libraries.insert(path.clone()) {
-                return Ok(());
-            }
-            if self.libraries.len() > MOST_LIBRARIES {
-                let message = format!("more than {MOST_LIBRARIES} material libraries");
-                let here = Location::line(self.path, line.number);
-                return Err(SceneError::resource(here, message));
-            }
-            let (found, warnings) = parse_mtl(&read(&path)?, &path)?;
-            materials.extend(found);
-            self.warnings.extend(warnings);
-            Ok(())
-        };
+    fn libraries(&mut self, line: u32, names: &[u8]) -> Result<(), SceneError> {
         let mut unread = Vec::new();
-        match add(names) {
+        match self.library(line, names) {
             Err(error) if error.kind == ErrorKind::Io => {
                 if fields(names).nth(1).is_none() {
                     unread.push(error);
                 } else {
                     for name in fields(names) {
-                        match add(name) {
+                        match self.library(line, name) {
                             Err(error) if error.kind == ErrorKind::Io => unread.push(error),
                             other => other?,
                         }
@@ -266,19 +260,41 @@ impl<'a> Parser<'a> {
         }
         for error in unread {
             let message = format!("material library left out: {error}");
-            self.warnings.push(Warning::new(Location::line(self.path, line.number), message));
+            self.warnings.push(Warning::new(Location::line(self.path, line), message));
         }
-        Ok(materials)
+        Ok(())
     }
 
-    fn scene(mut self, materials: Vec<MtlMaterial>) -> Result<ObjScene, SceneError> {
+    fn library(&mut self, line: u32, name: &[u8]) -> Result<(), SceneError> {
+        let path = relative(self.path, name);
+        let Some(read) = &mut self.library else { return Ok(()) };
+        if !self.libraries.insert(path.clone()) {
+            return Ok(());
+        }
+        if self.libraries.len() > MOST_LIBRARIES {
+            let message = format!("more than {MOST_LIBRARIES} material libraries");
+            return Err(SceneError::resource(Location::line(self.path, line), message));
+        }
+        let (found, warnings) = parse_mtl(&read(&path)?, &path)?;
+        self.materials.extend(found);
+        self.warnings.extend(warnings);
+        Ok(())
+    }
+
+    fn scene(mut self) -> Result<ObjScene, SceneError> {
         let mut by_name = BTreeMap::new();
-        for (index, material) in materials.iter().enumerate() {
+        for (index, material) in self.materials.iter().enumerate() {
             by_name.entry(material.name.as_str()).or_insert(index);
         }
-        let mut meshes = Vec::new();
+        let mut parts = Vec::new();
         for part in self.parts.into_vec() {
-            let material = part.material.as_ref().and_then(|name| {
+            let vertices = part.vertices(&self.positions, &self.uvs, &self.normals);
+            parts.push((part.name, part.material, part.triangles, vertices));
+        }
+        drop((self.positions, self.uvs, self.normals));
+        let mut meshes = Vec::new();
+        for (name, material, triangles, (positions, uvs, normals)) in parts {
+            let material = material.as_ref().and_then(|name| {
                 let found = by_name.get(name.as_str()).copied();
                 if found.is_none() {
                     let kind = format!("undefined material {}", quote(name.as_bytes()));
@@ -286,49 +302,15 @@ impl<'a> Parser<'a> {
                 }
                 found
             });
-            let mesh = TriangleMesh::new(part.positions, part.normals, part.uvs, part.triangles)
+            let mesh = MeshArrays::new(positions, normals, uvs, triangles)
                 .map_err(mesh_error(self.path))?;
-            meshes.push(ObjMesh { name: part.name, material, mesh });
+            meshes.push(ObjMesh { name, material, mesh });
         }
         if meshes.is_empty() {
             self.warnings.push(Warning::new(Location::file(self.path), "there are no faces"));
         }
-        Ok(ObjScene { meshes, materials, warnings: self.warnings.into_vec() })
+        Ok(ObjScene { meshes, materials: self.materials, warnings: self.warnings.into_vec() })
     }
-}
-
-/// `N` coordinates of which the first `required` must be there; the others default to 0.
-fn coordinates<'t, const N: usize>(
-    fields: &mut impl Iterator<Item = &'t [u8]>,
-    required: usize,
-) -> Result<[f32; N], String> {
-    let mut values = [0.0; N];
-    for (i, value) in values.iter_mut().enumerate() {
-        *value = match fields.next() {
-            Some(field) => real(field)?,
-            None if i < required => return Err(format!("{i} numbers of {required} or more")),
-            None => 0.0,
-        };
-    }
-    Ok(values)
-}
-
-/// An index counted from 1, of `count` things; negative ones count from the last back.
-fn index(field: &[u8], what: &str, count: usize) -> Result<u32, String> {
-    let text = core::str::from_utf8(field).unwrap_or_default();
-    let written: i64 =
-        text.parse().map_err(|_| format!("{} is not a {what} index", quote(field)))?;
-    let from_first =
-        if written < 0 { written.saturating_add_unsigned(count as u64 + 1) } else { written };
-    u32::try_from(from_first).ok().filter(|&i| i != Corner::NONE && i as usize <= count).ok_or_else(
-        || {
-            let defined = match count {
-                0 => "none is defined before it".into(),
-                n => format!("1 to {n} are defined before it"),
-            };
-            format!("there is no {what} {written}: {defined}")
-        },
-    )
 }
 
 #[cfg(test)]

@@ -1,11 +1,12 @@
 //! The parts of an OBJ file while it is read: faces by name and material, corners joined to vertices.
 
-use alloc::borrow::ToOwned as _;
 use alloc::string::String;
 use alloc::vec::Vec;
 use std::collections::HashMap;
 
 use etendue_math::glam::{Vec2, Vec3};
+
+use crate::parallel;
 
 /// A corner of a face: indices counted from 1.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
@@ -25,26 +26,58 @@ impl Corner {
 pub(super) struct Part {
     pub(super) name: String,
     pub(super) material: Option<String>,
-    pub(super) positions: Vec<Vec3>,
-    pub(super) uvs: Vec<Vec2>,
-    pub(super) normals: Vec<Vec3>,
+    /// What each vertex is made of.
+    corners: Vec<Corner>,
     pub(super) triangles: Vec<[u32; 3]>,
-    has_uvs: bool,
-    has_normals: bool,
 }
 
-/// A corner of a part and the vertex made for it.
-#[derive(Clone, Copy)]
-struct Binding {
-    part: u32,
-    corner: Corner,
-    vertex: u32,
+impl Part {
+    /// The positions, texture coordinates and normals of the vertices; no array where no corner names one. The corners' indices are
+    /// within the arrays.
+    pub(super) fn vertices(
+        &self,
+        positions: &[Vec3],
+        uvs: &[Vec2],
+        normals: &[Vec3],
+    ) -> (Vec<Vec3>, Vec<Vec2>, Vec<Vec3>) {
+        let corners = self.corners.as_slice();
+        (
+            chosen(corners, positions, |c| c.position),
+            chosen(corners, uvs, |c| c.uv),
+            chosen(corners, normals, |c| c.normal),
+        )
+    }
 }
+
+/// The values that corners name, zero where they name none; nothing where none does.
+fn chosen<T: Copy + Default + Send + Sync>(
+    corners: &[Corner],
+    values: &[T],
+    index: impl Fn(&Corner) -> u32 + Sync + Send,
+) -> Vec<T> {
+    if parallel::position(corners, |c| index(c) != Corner::NONE).is_none() {
+        return Vec::new();
+    }
+    let value = |c: &Corner| index(c).checked_sub(1).map(|i| values[i as usize]);
+    parallel::map(corners, |c| value(c).unwrap_or_default())
+}
+
+/// A vertex in the chain of those with the same position.
+#[derive(Clone, Copy)]
+struct Link {
+    part: u32,
+    vertex: u32,
+    next: u32,
+}
+
+/// No link.
+const END: u32 = u32::MAX;
+
+/// The most links of a chain that are looked at. Positions with more vertices, which no usual mesh has, keep
+/// the others in a hash table: chains would take quadratic time in a file that uses one position throughout.
+const LONGEST_CHAIN: usize = 16;
 
 /// All parts, and which vertices their corners have become.
-///
-/// Most positions have one corner only, which is kept beside the position; the others are in a hash
-/// table. Chains per position would be quadratic in a file that uses one position throughout.
 #[derive(Default)]
 pub(super) struct Parts {
     name: String,
@@ -52,21 +85,28 @@ pub(super) struct Parts {
     current: Option<u32>,
     by_key: HashMap<(String, Option<String>), u32>,
     all: Vec<Part>,
-    first: Vec<Option<Binding>>,
+    /// The first link of each position.
+    first: Vec<u32>,
+    links: Vec<Link>,
     others: HashMap<(u32, Corner), u32>,
 }
 
 impl Parts {
     /// The following faces belong to this object or group.
-    pub(super) fn name(&mut self, name: &str) {
-        name.clone_into(&mut self.name);
+    pub(super) fn name(&mut self, name: String) {
+        self.name = name;
         self.current = None;
     }
 
     /// The following faces have this material.
-    pub(super) fn material(&mut self, name: &str) {
-        self.material = Some(name.to_owned());
+    pub(super) fn material(&mut self, name: String) {
+        self.material = Some(name);
         self.current = None;
+    }
+
+    /// There are so many positions now.
+    pub(super) fn positions(&mut self, count: usize) {
+        self.first.resize(count, END);
     }
 
     /// The part that faces go to, made when its first face comes.
@@ -84,59 +124,56 @@ impl Parts {
         self.current
     }
 
-    /// The vertex of a corner in the current part, new or known; `None` when there are too many.
-    /// The corner's indices are within the arrays.
-    pub(super) fn vertex(
-        &mut self,
-        corner: Corner,
-        positions: &[Vec3],
-        uvs: &[Vec2],
-        normals: &[Vec3],
-    ) -> Option<u32> {
-        let current = self.current()?;
-        let part = &mut self.all[current as usize];
-        let fresh = u32::try_from(part.positions.len()).ok()?;
-        if self.first.len() < positions.len() {
-            self.first.resize(positions.len(), None);
-        }
-        let vertex = match &mut self.first[corner.position as usize - 1] {
-            Some(b) if b.part == current && b.corner == corner => b.vertex,
-            Some(_) => *self.others.entry((current, corner)).or_insert(fresh),
-            empty => {
-                *empty = Some(Binding { part: current, corner, vertex: fresh });
-                fresh
+    /// Adds a face, cut into a fan, to the current part; `None` when there are too many vertices. The positions of the corners
+    /// are within those there are.
+    pub(super) fn face(&mut self, corners: &[Corner]) -> Option<()> {
+        let mut fan = [0; 2];
+        for (number, &corner) in corners.iter().enumerate() {
+            let vertex = self.vertex(corner)?;
+            match number {
+                0 | 1 => fan[number] = vertex,
+                _ => {
+                    let part = self.current()?;
+                    self.all[part as usize].triangles.push([fan[0], fan[1], vertex]);
+                    fan[1] = vertex;
+                }
             }
-        };
-        if vertex == fresh {
-            let at = |i: u32| i.checked_sub(1).map(|i| i as usize);
-            part.positions.push(positions[corner.position as usize - 1]);
-            part.uvs.push(at(corner.uv).map_or(Vec2::ZERO, |i| uvs[i]));
-            part.normals.push(at(corner.normal).map_or(Vec3::ZERO, |i| normals[i]));
-            part.has_uvs |= corner.uv != Corner::NONE;
-            part.has_normals |= corner.normal != Corner::NONE;
         }
-        Some(vertex)
+        Some(())
     }
 
-    /// Adds a triangle of vertices of the current part.
-    pub(super) fn triangle(&mut self, vertices: [u32; 3]) {
-        if let Some(current) = self.current {
-            self.all[current as usize].triangles.push(vertices);
+    /// The vertex of a corner in the current part, new or known; `None` when there are too many.
+    fn vertex(&mut self, corner: Corner) -> Option<u32> {
+        let current = self.current()?;
+        let part = &mut self.all[current as usize];
+        let fresh = u32::try_from(part.corners.len()).ok().filter(|&fresh| fresh != END)?;
+        let first = &mut self.first[corner.position as usize - 1];
+        let (mut at, mut length) = (*first, 0);
+        while at != END && length < LONGEST_CHAIN {
+            let link = self.links[at as usize];
+            if link.part == current && part.corners[link.vertex as usize] == corner {
+                return Some(link.vertex);
+            }
+            (at, length) = (link.next, length + 1);
         }
+        if length < LONGEST_CHAIN {
+            let link = Link { part: current, vertex: fresh, next: *first };
+            *first = u32::try_from(self.links.len()).ok().filter(|&at| at != END)?;
+            self.links.push(link);
+        } else {
+            let vertex = *self.others.entry((current, corner)).or_insert(fresh);
+            if vertex != fresh {
+                return Some(vertex);
+            }
+        }
+        part.corners.push(corner);
+        Some(fresh)
     }
 
     /// The parts that have triangles, in order of first use.
     pub(super) fn into_vec(self) -> Vec<Part> {
         let mut parts = self.all;
         parts.retain(|part| !part.triangles.is_empty());
-        for part in &mut parts {
-            if !part.has_uvs {
-                part.uvs = Vec::new();
-            }
-            if !part.has_normals {
-                part.normals = Vec::new();
-            }
-        }
         parts
     }
 }

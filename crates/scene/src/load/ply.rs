@@ -7,11 +7,14 @@
 //! are read over.
 //!
 //! A parser of its own: errors name the line or the byte, counts are checked against the file before
-//! anything is allocated, and no text is built in between.
+//! anything is allocated, and no text is built in between. The usual records of binary files are read on
+//! all cores (`records`).
 
 mod attributes;
 mod body;
+mod columns;
 mod header;
+mod records;
 
 use alloc::format;
 use alloc::vec;
@@ -21,10 +24,11 @@ use std::path::Path;
 use etendue_math::glam::{Vec2, Vec3};
 
 use crate::error::{Location, SceneError, Warning};
-use crate::geometry::{AttributeOwner, TriangleMesh};
+use crate::geometry::{AttributeOwner, MeshArrays};
 
 use self::attributes::Attributes;
 use self::body::{Ascii, Binary, Body};
+use self::columns::{Columns, UNUSED};
 use self::header::{Element, Format, Kind};
 use super::file::read_asset;
 use super::mesh_file::{MeshFile, TexCoords, mesh_error, stem};
@@ -59,11 +63,43 @@ pub fn load_ply(path: &Path, tex_coords: TexCoords) -> Result<MeshFile, SceneErr
 pub fn parse_ply(bytes: &[u8], path: &Path, tex_coords: TexCoords) -> Result<MeshFile, SceneError> {
     let (header, rest, line) = header::parse(bytes, path)?;
     let start = bytes.len() - rest.len();
-    match header.format {
-        Format::Ascii => read(&header.elements, Ascii::new(rest, line, path), path, tex_coords),
+    let content = match header.format {
+        Format::Ascii => read(&header.elements, Ascii::new(rest, line, path), path, tex_coords)?,
         Format::Binary(order) => {
-            read(&header.elements, Binary::new(bytes, start, order, path), path, tex_coords)
+            read(&header.elements, Binary::new(bytes, start, order, path), path, tex_coords)?
         }
+    };
+    content.into_mesh(path)
+}
+
+/// What a file holds, its faces cut into triangles.
+#[derive(Default)]
+struct Content {
+    vertices: Vertices,
+    triangles: Vec<[u32; 3]>,
+    attributes: Vec<Attributes>,
+    warnings: Vec<Warning>,
+}
+
+impl Content {
+    fn into_mesh(self, path: &Path) -> Result<MeshFile, SceneError> {
+        let Self { vertices, triangles, attributes, mut warnings } = self;
+        let here = || Location::file(path);
+        if triangles.is_empty() {
+            warnings.push(Warning::new(here(), "there are no faces"));
+        }
+        let Vertices { positions, normals, uvs } = vertices;
+        let mut mesh =
+            MeshArrays::new(positions, normals, uvs, triangles).map_err(mesh_error(path))?;
+        let moved: usize = attributes.iter().map(Attributes::moved).sum();
+        if moved > 0 {
+            let message = format!("{moved} attributes are negative or not finite and count as 0");
+            warnings.push(Warning::new(here(), message));
+        }
+        for attribute in attributes.into_iter().flat_map(Attributes::finish) {
+            mesh = mesh.with_attribute(attribute).map_err(mesh_error(path))?;
+        }
+        Ok(MeshFile { name: stem(path), mesh, face_normals: false, warnings })
     }
 }
 
@@ -72,12 +108,8 @@ fn read(
     mut body: impl Body,
     path: &Path,
     tex_coords: TexCoords,
-) -> Result<MeshFile, SceneError> {
-    let here = || Location::file(path);
-    let mut warnings = Vec::new();
-    let mut vertices = Vertices::default();
-    let mut triangles = Vec::new();
-    let mut attributes = Vec::new();
+) -> Result<Content, SceneError> {
+    let mut content = Content::default();
     let declared = elements.iter().find(|e| e.name == "vertex").map_or(0, |e| e.count);
     for element in elements {
         if element.count > body.most_records(element) {
@@ -88,36 +120,23 @@ fn read(
         match element.name.as_str() {
             "vertex" => {
                 let mut own = Attributes::of(element, AttributeOwner::Vertex);
-                vertices = read_vertices(&mut body, element, path, tex_coords, &mut own)?;
-                attributes.push(own);
+                content.vertices = read_vertices(&mut body, element, path, tex_coords, &mut own)?;
+                content.attributes.push(own);
             }
             "face" if element.count > 0 => {
                 let mut own = Attributes::of(element, AttributeOwner::Face);
-                let faces = Faces { triangles: &mut triangles, attributes: &mut own };
+                let faces = Faces { triangles: &mut content.triangles, attributes: &mut own };
                 let small = read_faces(&mut body, element, declared, path, faces)?;
-                attributes.push(own);
+                content.attributes.push(own);
                 if small > 0 {
                     let message = format!("{small} faces of fewer than three vertices are ignored");
-                    warnings.push(Warning::new(here(), message));
+                    content.warnings.push(Warning::new(Location::file(path), message));
                 }
             }
             _ => skip(&mut body, element)?,
         }
     }
-    if triangles.is_empty() {
-        warnings.push(Warning::new(here(), "there are no faces"));
-    }
-    let mut mesh = TriangleMesh::new(vertices.positions, vertices.normals, vertices.uvs, triangles)
-        .map_err(mesh_error(path))?;
-    let moved: usize = attributes.iter().map(Attributes::moved).sum();
-    if moved > 0 {
-        let message = format!("{moved} attributes are negative or not finite and count as 0");
-        warnings.push(Warning::new(here(), message));
-    }
-    for attribute in attributes.into_iter().flat_map(Attributes::finish) {
-        mesh = mesh.with_attribute(attribute).map_err(mesh_error(path))?;
-    }
-    Ok(MeshFile { name: stem(path), mesh, face_normals: false, warnings })
+    Ok(content)
 }
 
 #[derive(Default)]
@@ -127,24 +146,6 @@ struct Vertices {
     uvs: Vec<Vec2>,
 }
 
-/// Where the values of a vertex property go: eight slots for position, normal and (u, v), and one
-/// that is never read.
-const UNUSED: usize = 8;
-
-fn slot(name: &str) -> usize {
-    match name {
-        "x" => 0,
-        "y" => 1,
-        "z" => 2,
-        "nx" => 3,
-        "ny" => 4,
-        "nz" => 5,
-        "u" | "s" | "texture_u" | "texture_s" => 6,
-        "v" | "t" | "texture_v" | "texture_t" => 7,
-        _ => UNUSED,
-    }
-}
-
 fn read_vertices(
     body: &mut impl Body,
     element: &Element,
@@ -152,50 +153,40 @@ fn read_vertices(
     tex_coords: TexCoords,
     attributes: &mut Attributes,
 ) -> Result<Vertices, SceneError> {
-    let mut present = [false; UNUSED + 1];
-    let columns: Vec<(Kind, usize)> = element
-        .properties
-        .iter()
-        .map(|property| match property.kind {
-            Kind::Scalar(_) => (property.kind, slot(&property.name)),
-            Kind::List { .. } => (property.kind, UNUSED),
-        })
-        .collect();
-    for &(_, slot) in &columns {
-        present[slot] = true;
-    }
-    if element.count > 0 && !present[..3].iter().all(|&p| p) {
+    let columns = Columns::of(element);
+    if element.count > 0 && !columns.has_positions {
         let message = "the element 'vertex' needs the properties x, y and z";
         return Err(SceneError::scene(Location::line(path, element.line), message));
     }
-    let has_normals = present[3..6].iter().all(|&p| p);
-    let has_uvs = present[6..8].iter().all(|&p| p);
-    let used = |slot| match slot {
-        0..3 => true,
-        3..6 => has_normals,
-        6..8 => has_uvs,
-        _ => false,
-    };
+    let parallel = body
+        .binary()
+        .and_then(|binary| records::vertices(binary, element, &columns, tex_coords, attributes));
+    if let Some((vertices, bytes)) = parallel {
+        body.advance(bytes);
+        return Ok(vertices);
+    }
+    let Columns { has_normals, has_uvs, .. } = columns;
     let capacity = |wanted| if wanted { element.count } else { 0 };
     let mut vertices = Vertices {
         positions: Vec::with_capacity(element.count),
         normals: Vec::with_capacity(capacity(has_normals)),
         uvs: Vec::with_capacity(capacity(has_uvs)),
     };
-    let mut record = vec![0.0; columns.len()];
+    let mut record = vec![0.0; columns.slots.len()];
     for index in 0..element.count {
         let mut slots = [0f32; UNUSED + 1];
-        for (&(kind, slot), number) in columns.iter().zip(&mut record) {
-            match kind {
+        let properties = element.properties.iter().zip(&columns.slots);
+        for ((property, &slot), number) in properties.zip(&mut record) {
+            match property.kind {
                 Kind::Scalar(scalar) => {
                     let value = body.value(scalar).ok_or_else(|| body.flaw(element, index))?;
                     *number = value;
                     slots[slot] = value as f32;
-                    if used(slot) && !slots[slot].is_finite() {
+                    if columns.uses(slot) && !slots[slot].is_finite() {
                         return Err(body.wrong(element, index, "is not a finite number"));
                     }
                 }
-                Kind::List { .. } => skip_list(body, element, index, kind)?,
+                Kind::List { .. } => skip_list(body, element, index, property.kind)?,
             }
         }
         let [x, y, z, nx, ny, nz, u, v, _] = slots;
@@ -211,6 +202,11 @@ fn read_vertices(
     Ok(vertices)
 }
 
+/// Whether a list of a face is that of its vertices.
+fn is_indices(name: &str) -> bool {
+    name == "vertex_indices" || name == "vertex_index"
+}
+
 /// Where faces are put.
 struct Faces<'a> {
     triangles: &'a mut Vec<[u32; 3]>,
@@ -223,15 +219,20 @@ fn read_faces(
     element: &Element,
     vertices: usize,
     path: &Path,
-    faces: Faces<'_>,
+    mut faces: Faces<'_>,
 ) -> Result<usize, SceneError> {
-    let Faces { triangles, attributes } = faces;
-    let is_indices = |name: &str| name == "vertex_indices" || name == "vertex_index";
     let listed = |p: &header::Property| is_indices(&p.name) && matches!(p.kind, Kind::List { .. });
     if !element.properties.iter().any(listed) {
         let message = "the element 'face' needs a list 'vertex_indices'";
         return Err(SceneError::scene(Location::line(path, element.line), message));
     }
+    let parallel =
+        body.binary().and_then(|binary| records::faces(binary, element, vertices, &mut faces));
+    if let Some((small, bytes)) = parallel {
+        body.advance(bytes);
+        return Ok(small);
+    }
+    let Faces { triangles, attributes } = faces;
     let mut small = 0;
     triangles.reserve(element.count);
     let mut record = vec![0.0; element.properties.len()];

@@ -24,7 +24,7 @@ use etendue_math::glam::{Vec2, Vec3};
 use flate2::read::ZlibDecoder;
 
 use crate::error::{Location, SceneError, Warning};
-use crate::geometry::TriangleMesh;
+use crate::geometry::MeshArrays;
 
 use super::file::read_asset;
 use super::mesh_file::{MeshFile, mesh_error, stem};
@@ -171,7 +171,7 @@ fn read(
     let positions = positions.into_iter().map(Vec3::from_array).collect();
     let normals = normals.into_iter().map(Vec3::from_array).collect();
     let uvs = uvs.into_iter().map(Vec2::from_array).collect();
-    let mesh = TriangleMesh::new(positions, normals, uvs, corners);
+    let mesh = MeshArrays::new(positions, normals, uvs, corners);
     let mesh = mesh.map_err(|error| Flaw::Mesh(mesh_error(path)(error)))?;
     let mut warnings = Vec::new();
     if mesh.triangles().is_empty() {

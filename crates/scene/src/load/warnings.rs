@@ -7,7 +7,7 @@ use alloc::string::String;
 use crate::error::{Location, Warning, Warnings};
 
 /// How many kinds are reported: binary data read as text has thousands.
-const MOST_KINDS: usize = 20;
+pub(super) const MOST_KINDS: usize = 20;
 
 /// Warnings about ignored content, the first of each kind.
 #[derive(Default)]

@@ -10,7 +10,7 @@ use ::image::{DynamicImage, ImageDecoder as _, ImageFormat, ImageReader, Limits}
 use crate::error::SceneError;
 
 use super::super::srgb;
-use super::{Encoding, FREE, Image, RATIO, check_size, malformed};
+use super::{Encoding, Image, check_size, malformed, most_samples};
 
 pub(super) fn parse(bytes: &[u8], path: &Path, encoding: Encoding) -> Result<Image, SceneError> {
     let fail = |error| malformed(path, format!("{error}"));
@@ -22,7 +22,7 @@ pub(super) fn parse(bytes: &[u8], path: &Path, encoding: Encoding) -> Result<Ima
     };
     let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
     let mut limits = Limits::default();
-    limits.max_alloc = Some(4 * (FREE + RATIO * bytes.len() as u64));
+    limits.max_alloc = Some(4 * most_samples(bytes));
     reader.limits(limits);
     let decoder = reader.into_decoder().map_err(fail)?;
     let (width, height) = decoder.dimensions();

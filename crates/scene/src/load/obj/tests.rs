@@ -6,10 +6,19 @@ const PATH: &str = "a.obj";
 const SQUARE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 
 fn merged(text: &str) -> Result<MeshFile, SceneError> {
-    parse_obj_merged(text.as_bytes(), Path::new(PATH), TexCoords::AsWritten)
+    let whole = parse_obj_merged(text.as_bytes(), Path::new(PATH), TexCoords::AsWritten);
+    if text.len() < 2000 {
+        // However a text is cut, it means the same.
+        for (piece, task) in [(1, 1), (7, 3), (50, 20)] {
+            let parser = Parser::new(Path::new(PATH), TexCoords::AsWritten, None);
+            let cut = parser.read(text.as_bytes(), text.len() as u64, Sizes { piece, task });
+            assert_eq!(cut.map(|scene| super::merged(scene, Path::new(PATH))), whole, "{piece}");
+        }
+    }
+    whole
 }
 
-fn mesh(text: &str) -> TriangleMesh {
+fn mesh(text: &str) -> MeshArrays {
     merged(text).expect("a valid file").mesh
 }
 
@@ -21,7 +30,7 @@ fn message(text: &str) -> String {
 fn scene(text: &str, library: Option<&str>) -> ObjScene {
     let read = |path: &Path| match library {
         Some(text) => Ok(text.as_bytes().to_vec()),
-        None => Err(SceneError::io(path, &std::io::ErrorKind::NotFound.into())),
+        None => Err(SceneError::io(path, &io::ErrorKind::NotFound.into())),
     };
     parse_obj(text.as_bytes(), Path::new(PATH), TexCoords::AsWritten, read).expect("a valid file")
 }
@@ -152,6 +161,39 @@ fn parts_are_kept_apart_by_name_and_material() {
 }
 
 #[test]
+fn parts_do_not_depend_on_how_the_text_is_cut() {
+    let lines: Vec<String> = (0..100)
+        .map(|i| match i % 10 {
+            0 => format!("o {}\nusemtl {}", i % 20, i % 30),
+            5 => format!("mtllib {i}.mtl\nl {i}"),
+            _ => format!("v {i} 0 0\nv 0 {i} 0\nv 0 0 {i}\nf -1 -2 -3\nf 1 2 3"),
+        })
+        .collect();
+    let text = lines.join("\n");
+    let read = |sizes| {
+        let mut library = |_: &Path| Ok(b"newmtl 0\nfoo\nnewmtl 20".to_vec());
+        let parser = Parser::new(Path::new(PATH), TexCoords::Flipped, Some(&mut library));
+        parser.read(text.as_bytes(), text.len() as u64, sizes).expect("a valid file")
+    };
+    let whole = read(Sizes::USUAL);
+    assert!(whole.meshes.len() == 6 && whole.warnings.len() > 5, "{:?}", whole.warnings);
+    for (piece, task) in [(1, 1), (100, 30), (1000, 100)] {
+        assert_eq!(read(Sizes { piece, task }), whole, "{piece}");
+    }
+}
+
+#[test]
+fn a_corner_beyond_the_chain_of_its_position_is_found_again() {
+    let uvs: Vec<_> = (0..100).map(|i| format!("vt {i}")).collect();
+    let corners: Vec<_> = (1..=100).map(|i| format!("1/{i}")).collect();
+    let (uvs, corners) = (uvs.join("\n"), corners.join(" "));
+    let once = mesh(&format!("v 0 0 0\n{uvs}\nf {corners}"));
+    let twice = mesh(&format!("v 0 0 0\n{uvs}\nf {corners}\nf {corners}"));
+    assert_eq!((once.positions().len(), once.uvs()), (100, twice.uvs()));
+    assert_eq!(twice.triangles()[98..], *once.triangles());
+}
+
+#[test]
 fn missing_libraries_and_materials_are_warnings() {
     let s = scene(&format!("mtllib a b.mtl\n{SQUARE}usemtl x\nf 1 2 3"), None);
     let messages: Vec<_> = s.warnings.iter().map(ToString::to_string).collect();
@@ -197,7 +239,7 @@ fn unknown_statements_and_small_faces_warn_once_per_kind() {
             "there are no faces"
         ]
     );
-    assert_eq!((file.name.as_str(), file.mesh), ("a", TriangleMesh::default()));
+    assert_eq!((file.name.as_str(), file.mesh), ("a", MeshArrays::default()));
 }
 
 #[test]

@@ -5,6 +5,8 @@ use alloc::string::String;
 use alloc::vec;
 use alloc::vec::Vec;
 
+use rayon::prelude::*;
+
 use super::header::{Element, Kind, Property};
 use crate::Color;
 use crate::geometry::{AttributeOwner, MeshAttribute};
@@ -20,6 +22,24 @@ const COLORS: [[&str; 3]; 2] = [["r", "g", "b"], ["red", "green", "blue"]];
 struct Group {
     name: String,
     columns: Vec<usize>,
+}
+
+impl Group {
+    /// The value that a record's numbers have, and how many of them were moved to 0: those that are negative or not finite.
+    fn color(&self, number: impl Fn(usize) -> f64) -> (Color, usize) {
+        let mut moved = 0;
+        let mut valid = |column: usize| {
+            let value = number(column) as f32;
+            let is_valid = value >= 0.0 && value.is_finite();
+            moved += usize::from(!is_valid);
+            if is_valid { value } else { 0.0 }
+        };
+        let color = match self.columns[..] {
+            [r, g, b] => Color::new(valid(r), valid(g), valid(b)),
+            _ => [valid(self.columns[0]); 3].into(),
+        };
+        (color, moved)
+    }
 }
 
 /// The attributes of an element, and their values as far as they are read.
@@ -83,20 +103,29 @@ impl Attributes {
     ///
     /// Numbers that are negative or not finite are 0.
     pub(super) fn push(&mut self, record: &[f64], times: usize) {
-        let moved = &mut self.moved;
-        let mut number = |column: usize| {
-            let value = record[column] as f32;
-            let valid = value >= 0.0 && value.is_finite();
-            *moved += usize::from(!valid);
-            if valid { value } else { 0.0 }
-        };
         for (group, values) in self.groups.iter().zip(&mut self.values) {
-            let color = match group.columns[..] {
-                [r, g, b] => Color::new(number(r), number(g), number(b)),
-                _ => [number(group.columns[0]); 3].into(),
-            };
+            let (color, moved) = group.color(|column| record[column]);
+            self.moved += moved;
             values.extend(core::iter::repeat_n(color, times));
         }
+    }
+
+    /// Sets what all records say, one per vertex or triangle, on all cores; `number` is that of a property in a record.
+    pub(super) fn collect<'a>(
+        &mut self,
+        records: &(impl IndexedParallelIterator<Item = &'a [u8]> + Clone),
+        number: impl Fn(&[u8], usize) -> f64 + Sync,
+    ) {
+        for (group, values) in self.groups.iter().zip(&mut self.values) {
+            let colors = records.clone().map(|r| group.color(|column| number(r, column)));
+            self.moved += colors.clone().map(|(_, moved)| moved).sum::<usize>();
+            *values = colors.map(|(color, _)| color).collect();
+        }
+    }
+
+    /// Whether there are none.
+    pub(super) fn is_empty(&self) -> bool {
+        self.groups.is_empty()
     }
 
     /// How many numbers were negative or not finite.

@@ -23,6 +23,12 @@ pub(super) trait Body {
 
     /// That the last number read is not what it should be.
     fn wrong(&self, element: &Element, index: usize, what: &str) -> SceneError;
+
+    /// What follows, and its order, where numbers have fixed sizes.
+    fn binary(&self) -> Option<(&[u8], Order)>;
+
+    /// Passes over bytes that were read from [`binary`](Body::binary).
+    fn advance(&mut self, bytes: usize);
 }
 
 /// Numbers as text. Line ends count as any other space.
@@ -74,6 +80,14 @@ impl Body for Ascii<'_> {
     fn wrong(&self, element: &Element, index: usize, what: &str) -> SceneError {
         self.error(format!("{} {index}: {} {what}", element.name, quote(self.last)))
     }
+
+    fn binary(&self) -> Option<(&[u8], Order)> {
+        None
+    }
+
+    fn advance(&mut self, bytes: usize) {
+        self.rest = self.rest.get(bytes..).unwrap_or_default();
+    }
 }
 
 /// Numbers in binary.
@@ -91,14 +105,9 @@ impl<'a> Binary<'a> {
         Self { file, at, order, last: (at, 0.0), path }
     }
 
-    /// The next bytes, least significant first.
-    fn take<const N: usize>(&mut self) -> Option<[u8; N]> {
-        let mut bytes = *self.file.get(self.at..)?.first_chunk::<N>()?;
-        if self.order == Order::Big {
-            bytes.reverse();
-        }
-        self.at += N;
-        Some(bytes)
+    /// All that follows what was read.
+    pub(super) fn rest(&self) -> &'a [u8] {
+        self.file.get(self.at..).unwrap_or_default()
     }
 
     fn error(&self, message: String) -> SceneError {
@@ -109,16 +118,8 @@ impl<'a> Binary<'a> {
 impl Body for Binary<'_> {
     fn value(&mut self, kind: Scalar) -> Option<f64> {
         let at = self.at;
-        let value = match kind {
-            Scalar::I8 => i8::from_le_bytes(self.take()?).into(),
-            Scalar::U8 => u8::from_le_bytes(self.take()?).into(),
-            Scalar::I16 => i16::from_le_bytes(self.take()?).into(),
-            Scalar::U16 => u16::from_le_bytes(self.take()?).into(),
-            Scalar::I32 => i32::from_le_bytes(self.take()?).into(),
-            Scalar::U32 => u32::from_le_bytes(self.take()?).into(),
-            Scalar::F32 => f32::from_le_bytes(self.take()?).into(),
-            Scalar::F64 => f64::from_le_bytes(self.take()?),
-        };
+        let value = self.order.number(kind, self.rest())?;
+        self.at += kind.size();
         self.last = (at, value);
         Some(value)
     }
@@ -145,5 +146,13 @@ impl Body for Binary<'_> {
     fn wrong(&self, element: &Element, index: usize, what: &str) -> SceneError {
         let (at, value) = self.last;
         self.error(format!("{} {index}: {value} at byte {at} {what}", element.name))
+    }
+
+    fn binary(&self) -> Option<(&[u8], Order)> {
+        Some((self.rest(), self.order))
+    }
+
+    fn advance(&mut self, bytes: usize) {
+        self.at += bytes;
     }
 }

@@ -23,6 +23,33 @@ pub(super) enum Order {
     Big,
 }
 
+impl Order {
+    /// The number that some bytes begin with; `None` where they end in it.
+    #[inline(always)]
+    pub(super) fn number(self, kind: Scalar, bytes: &[u8]) -> Option<f64> {
+        Some(match kind {
+            Scalar::I8 => i8::from_le_bytes(self.least_first(bytes)?).into(),
+            Scalar::U8 => u8::from_le_bytes(self.least_first(bytes)?).into(),
+            Scalar::I16 => i16::from_le_bytes(self.least_first(bytes)?).into(),
+            Scalar::U16 => u16::from_le_bytes(self.least_first(bytes)?).into(),
+            Scalar::I32 => i32::from_le_bytes(self.least_first(bytes)?).into(),
+            Scalar::U32 => u32::from_le_bytes(self.least_first(bytes)?).into(),
+            Scalar::F32 => f32::from_le_bytes(self.least_first(bytes)?).into(),
+            Scalar::F64 => f64::from_le_bytes(self.least_first(bytes)?),
+        })
+    }
+
+    /// The first bytes, least significant first.
+    #[inline(always)]
+    fn least_first<const N: usize>(self, bytes: &[u8]) -> Option<[u8; N]> {
+        let mut bytes = *bytes.first_chunk::<N>()?;
+        if self == Self::Big {
+            bytes.reverse();
+        }
+        Some(bytes)
+    }
+}
+
 /// The type of a number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Scalar {

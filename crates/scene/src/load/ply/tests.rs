@@ -1,4 +1,4 @@
-use super::header::Scalar;
+use super::header::{Order, Scalar};
 use super::*;
 use alloc::string::{String, ToString};
 use alloc::vec;
@@ -238,4 +238,109 @@ fn properties_of_vertices_and_faces_become_attributes() {
     assert_eq!(file.warnings.len(), 1);
     let warning = file.warnings[0].to_string();
     assert!(warning.contains("2 attributes are negative or not finite"), "{warning}");
+}
+
+/// Numbers of a binary file, read one after the other.
+struct OneByOne<'a>(Binary<'a>);
+
+impl Body for OneByOne<'_> {
+    fn value(&mut self, kind: Scalar) -> Option<f64> {
+        self.0.value(kind)
+    }
+
+    fn most_records(&self, element: &Element) -> usize {
+        self.0.most_records(element)
+    }
+
+    fn flaw(&self, element: &Element, index: usize) -> SceneError {
+        self.0.flaw(element, index)
+    }
+
+    fn wrong(&self, element: &Element, index: usize, what: &str) -> SceneError {
+        self.0.wrong(element, index, what)
+    }
+
+    fn binary(&self) -> Option<(&[u8], Order)> {
+        None
+    }
+
+    fn advance(&mut self, _: usize) {}
+}
+
+/// A file of polygons of two to five corners whose indices have the types given by name, with numbers around the lists.
+fn polygons(order: Order, length: (&str, usize), item: (&str, usize), count: u32) -> Vec<u8> {
+    let name = if order == Order::Big { "big" } else { "little" };
+    let mut file = format!(
+        "ply\nformat binary_{name}_endian 1.0\nelement vertex {count}\nproperty double x\nproperty float y\n\
+         property short z\nproperty float v\nproperty float u\nproperty uchar blue\nproperty uchar red\n\
+         property uchar green\nproperty float heat_0\nelement face {count}\nproperty short before\n\
+         property list {} {} vertex_index\nproperty uchar after\nend_header\n",
+        length.0, item.0
+    )
+    .into_bytes();
+    let mut push = |bytes: &[u8]| match order {
+        Order::Little => file.extend(bytes),
+        Order::Big => file.extend(bytes.iter().rev()),
+    };
+    for i in 0..count {
+        push(&f64::from(i).to_le_bytes());
+        push(&(i as f32).sqrt().to_le_bytes());
+        push(&(i as i16).to_le_bytes());
+        push(&0.25f32.to_le_bytes());
+        push(&(1.0 / (1 + i) as f32).to_le_bytes());
+        (0..3).for_each(|channel| push(&[(i + channel) as u8]));
+        push(&(i as f32 - 2.0).to_le_bytes());
+    }
+    for i in 0..count {
+        push(&[1, 2]);
+        let corners = 2 + i % 4;
+        push(&corners.to_le_bytes()[..length.1]);
+        for corner in 0..corners {
+            push(&((i * 7 + corner) % count.min(200)).to_le_bytes()[..item.1]);
+        }
+        push(&[9]);
+    }
+    file
+}
+
+#[test]
+fn records_read_on_all_cores_are_those_read_one_by_one() {
+    let path = Path::new("a.ply");
+    let slowly = |bytes: &[u8]| {
+        let (header, rest, _) = header::parse(bytes, path)?;
+        let Format::Binary(order) = header.format else { panic!("a text") };
+        let numbers = Binary::new(bytes, bytes.len() - rest.len(), order, path);
+        read(&header.elements, OneByOne(numbers), path, TexCoords::Flipped)?.into_mesh(path)
+    };
+    let quickly = |bytes: &[u8]| parse_ply(bytes, path, TexCoords::Flipped);
+    for order in [Order::Little, Order::Big] {
+        for (length, item) in [
+            (("uchar", 1), ("int", 4)),
+            (("uchar", 1), ("uint", 4)),
+            (("int", 4), ("uchar", 1)),
+            (("ushort", 2), ("short", 2)),
+        ] {
+            let bytes = polygons(order, length, item, 40);
+            let expected = slowly(&bytes).expect("a valid file");
+            assert_eq!(expected.mesh.triangles().len(), 60);
+            assert_eq!(quickly(&bytes), Ok(expected));
+            // Flaws are found by the same words.
+            for at in 0..bytes.len() {
+                let mut altered = bytes.clone();
+                altered[at] ^= 0x80;
+                assert_eq!(quickly(&altered), slowly(&altered), "{at}");
+                assert_eq!(quickly(&bytes[..at]), slowly(&bytes[..at]), "{at}");
+            }
+        }
+    }
+}
+
+#[test]
+fn the_number_of_threads_changes_nothing() {
+    let bytes = polygons(Order::Little, ("uchar", 1), ("int", 4), 30_000);
+    let with = |threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+        pool.install(|| parse(&bytes).expect("a valid file"))
+    };
+    assert_eq!(with(1), with(4));
 }

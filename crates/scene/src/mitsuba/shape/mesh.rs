@@ -9,7 +9,7 @@ use super::super::reader::PluginReader;
 use super::Item;
 use super::surface::{placed, refused, surface};
 use crate::SceneError;
-use crate::geometry::{MeshError, Shape, TriangleMesh};
+use crate::geometry::{MeshArrays, MeshError, Shape, TriangleMesh};
 use crate::load::{
     MeshFile, TexCoords, load_obj_merged, load_ply, load_serialized, smooth_normals,
 };
@@ -96,16 +96,14 @@ fn mesh<'a>(
 }
 
 /// The mesh without vertex normals where it is to look flat, and else with them.
-pub(in super::super) fn shaded(
-    mesh: TriangleMesh,
-    is_flat: bool,
-) -> Result<TriangleMesh, MeshError> {
-    if is_flat {
-        mesh.with_normals(alloc::vec::Vec::new())
+pub(in super::super) fn shaded(mesh: MeshArrays, is_flat: bool) -> Result<TriangleMesh, MeshError> {
+    let mesh = if is_flat {
+        mesh.with_normals(alloc::vec::Vec::new())?
     } else if mesh.normals().is_empty() {
         let normals = smooth_normals(&mesh);
-        mesh.with_normals(normals)
+        mesh.with_normals(normals)?
     } else {
-        Ok(mesh)
-    }
+        mesh
+    };
+    Ok(mesh.into())
 }
