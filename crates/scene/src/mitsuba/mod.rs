@@ -1,4 +1,4 @@
-//! Loading: from a scene file or a bare mesh to a [`Scene`](crate::Scene).
+//! Loading: from a scene file, a model or a bare mesh to a [`Scene`](crate::Scene).
 //!
 //! Scene files are Mitsuba's; [`crate::xml`] reads them into a description and this module gives it a
 //! meaning. Every plugin is one function that asks a reader for its parameters; parameters that
@@ -24,6 +24,7 @@ mod integrator;
 mod ior;
 mod load;
 mod medium;
+mod model;
 mod origins;
 mod reader;
 mod sampler;
