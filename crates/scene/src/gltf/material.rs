@@ -54,10 +54,16 @@ struct Coverage {
 }
 
 /// The object that describes a material.
-pub(super) fn json<'a>(builder: &Builder<'a>, index: Option<usize>) -> Json<'a> {
+pub(super) fn json<'a>(
+    builder: &Builder<'a>,
+    index: Option<usize>,
+) -> Result<Json<'a>, SceneError> {
     let document = builder.document();
-    let described = index.and_then(|index| document.list("materials").ok()?.into_iter().nth(index));
-    described.unwrap_or_else(|| document.nothing())
+    let described = match (index, document.root().get("materials")?) {
+        (Some(index), Some(materials)) => materials.item(index)?,
+        _ => None,
+    };
+    Ok(described.unwrap_or_else(|| document.nothing()))
 }
 
 /// The set of texture coordinates that a material looks at: that of its first texture.
@@ -87,7 +93,7 @@ pub(super) fn of(builder: &mut Builder<'_>, look: Look) -> Result<Substance, Sce
     if let Some(substance) = builder.substances_made.get(&look) {
         return Ok(*substance);
     }
-    let json = json(builder, look.index);
+    let json = json(builder, look.index)?;
     let set = set(&json)?;
     let mut reading = Reading { builder, json, look, set };
     let substance = reading.substance()?;

@@ -10,6 +10,7 @@ use etendue_math::glam::{Vec2, Vec3};
 use super::accessor::Accessor;
 use super::buffers::Buffers;
 use super::json::Json;
+use super::skin::Skin;
 use super::topology::Topology;
 use crate::geometry::{AttributeOwner, MeshAttribute, MeshError, TriangleMesh};
 use crate::{Color, SceneError};
@@ -40,7 +41,7 @@ struct Vertices {
     colors: Vec<[f32; 4]>,
 }
 
-/// Reads a primitive with its `set`-th texture coordinates. `None` where it has no surface.
+/// Reads a primitive with its `set`-th texture coordinates, where a skin takes it if there is one. `None` where it has no surface.
 ///
 /// # Errors
 /// What is not there or does not fit together, coordinates that are not finite, colours that are negative.
@@ -48,6 +49,7 @@ pub(super) fn read(
     buffers: &Buffers<'_>,
     primitive: &Json<'_>,
     set: usize,
+    skin: Option<&Skin>,
 ) -> Result<Option<Primitive>, SceneError> {
     let topology = Topology::of(primitive)?;
     if topology == Topology::NoSurface {
@@ -59,6 +61,10 @@ pub(super) fn read(
     };
     let mut vertices = vertices(buffers, &attributes, &positions, set)?;
     let count = vertices.positions.len();
+    if let Some(skin) = skin {
+        let influences = skin.influences(buffers, &attributes, count)?;
+        skin.pose(&influences, &mut vertices.positions, &mut vertices.normals);
+    }
     let indices = match Accessor::named(buffers, primitive, "indices")? {
         Some(accessor) => {
             let indices = accessor.indices()?;

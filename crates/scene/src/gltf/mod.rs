@@ -27,6 +27,7 @@ mod mesh;
 mod node;
 mod principled;
 mod shapes;
+mod skin;
 mod texture;
 mod topology;
 mod uri;

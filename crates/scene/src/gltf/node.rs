@@ -33,7 +33,8 @@ pub(super) fn all(document: &Document) -> Result<Vec<Node<'_>>, SceneError> {
     // What is left to visit, the next one last.
     let mut rest: Vec<(usize, DAffine3)> = Vec::new();
     let mut visit = |list: Vec<Json<'_>>, parent: DAffine3, rest: &mut Vec<(usize, DAffine3)>| {
-        for item in list.into_iter().rev() {
+        let first = rest.len();
+        for item in list {
             let index = item.as_index()?;
             document.element(&item, index, "nodes")?;
             if core::mem::replace(&mut seen[index], true) {
@@ -42,6 +43,7 @@ pub(super) fn all(document: &Document) -> Result<Vec<Node<'_>>, SceneError> {
             }
             rest.push((index, parent));
         }
+        rest[first..].reverse();
         Ok(())
     };
     match roots(document, &nodes)? {

@@ -12,6 +12,7 @@ use super::json::Json;
 use super::material::{self, Look, Substance};
 use super::mesh::{self, Primitive};
 use super::node::Node;
+use super::skin::{self, Skin};
 use crate::SceneError;
 use crate::effect::Element;
 use crate::geometry::{Shape, Transform, TransformError, TriangleMesh};
@@ -31,22 +32,29 @@ struct Use<'n, 'a> {
     to_world: DAffine3,
 }
 
-/// Adds the meshes of all nodes: where they stand if they are used once or shine, else as instances of a group.
+/// Adds the meshes of all nodes: where they stand if they are used once, shine or hang on joints, else as instances of a group.
 ///
 /// # Errors
 /// Meshes and materials that are refused, places out of range.
 pub(super) fn add(builder: &mut Builder<'_>, nodes: &[Node<'_>]) -> Result<(), SceneError> {
     let document = builder.document();
+    let places = nodes.iter().map(|node| (node.index, node.to_world)).collect();
     let mut uses: BTreeMap<usize, Vec<Use<'_, '_>>> = BTreeMap::new();
     for node in nodes {
-        let Some((index, _)) = document.named(&node.json, "mesh", "meshes")? else { continue };
-        let places = instances::of(builder.buffers, node)?;
-        let places = places.into_iter().map(|to_world| Use { node, to_world });
-        uses.entry(index).or_default().extend(places);
+        let Some((index, mesh)) = document.named(&node.json, "mesh", "meshes")? else { continue };
+        if let Some(skin) = skin::of(builder.buffers, node, &places)? {
+            let parts = parts(builder, &mesh, Some(&skin))?;
+            // Joints place it, its own node does not.
+            add_in_place(builder, &parts, &Use { node, to_world: DAffine3::IDENTITY })?;
+            continue;
+        }
+        let own = instances::of(builder.buffers, node)?;
+        let own = own.into_iter().map(|to_world| Use { node, to_world });
+        uses.entry(index).or_default().extend(own);
     }
     let meshes = document.list("meshes")?;
     for (index, uses) in uses {
-        let parts = parts(builder, &meshes[index])?;
+        let parts = parts(builder, &meshes[index], None)?;
         let shines = parts.iter().any(|part| part.substance.radiance.is_some());
         if uses.len() == 1 || shines {
             let vertices: usize = parts.iter().map(|part| part.mesh.positions().len()).sum();
@@ -62,7 +70,11 @@ pub(super) fn add(builder: &mut Builder<'_>, nodes: &[Node<'_>]) -> Result<(), S
 }
 
 /// The parts of a mesh.
-fn parts(builder: &mut Builder<'_>, mesh: &Json<'_>) -> Result<Vec<Part>, SceneError> {
+fn parts(
+    builder: &mut Builder<'_>,
+    mesh: &Json<'_>,
+    skin: Option<&Skin>,
+) -> Result<Vec<Part>, SceneError> {
     let name = mesh.title()?;
     if !mesh.items("weights")?.is_empty() {
         builder
@@ -72,9 +84,9 @@ fn parts(builder: &mut Builder<'_>, mesh: &Json<'_>) -> Result<Vec<Part>, SceneE
     for primitive in mesh.items("primitives")? {
         let index = builder.document().named(&primitive, "material", "materials")?;
         let index = index.map(|(index, _)| index);
-        let json = material::json(builder, index);
+        let json = material::json(builder, index)?;
         let set = material::set(&json)?;
-        let Some(read) = mesh::read(builder.buffers, &primitive, set)? else {
+        let Some(read) = mesh::read(builder.buffers, &primitive, set, skin)? else {
             let message = "points, lines and what has no positions are not rendered";
             builder.warn(&primitive.warning(message));
             continue;

@@ -1,5 +1,6 @@
 //! Meshes, nodes and cameras.
 
+use alloc::vec;
 use alloc::vec::Vec;
 
 use etendue_math::glam::Vec3;
@@ -109,7 +110,7 @@ fn quantised_positions_are_scaled_by_their_node_and_strides_are_kept() {
     let attributes = json!({ "POSITION": position, "NORMAL": normal });
     draft.node(vec![json!({ "attributes": attributes })]);
     draft.root["nodes"][0]["scale"] = json!([2, 2, 2]);
-    let corners = |draft: &Draft| only(draft)[0].map(Vec3::to_array);
+    let corners = |draft: &Draft| only(draft)[0].map(|p| p.to_array());
     assert_eq!(corners(&draft), [[0.0; 3], [510.0, 0.0, 0.0], [0.0, 102.0, 0.0]]);
     draft.root["accessors"][position]["normalized"] = json!(true);
     assert_eq!(corners(&draft), [[0.0; 3], [2.0, 0.0, 0.0], [0.0, 0.4, 0.0]]);
@@ -207,4 +208,58 @@ fn what_shines_stands_in_the_world_however_often_it_is_used() {
     let model = draft.model();
     assert_eq!((model.surfaces.len(), model.lights.len()), (2, 2));
     assert_eq!(model.geometry.build().instance_count(), 0);
+}
+
+/// A triangle that hangs on two joints: its last vertex half on each.
+fn skinned() -> Draft {
+    let mut draft = Draft::new();
+    let position = draft.floats(&TRIANGLE);
+    let normal = draft.floats(&[[0.0, 0.0, 1.0]; 3]);
+    let joints = draft.accessor(5121, "VEC4", 3, &[0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0]);
+    let weights = draft.floats(&[[1.0, 0.0, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0], [0.5, 0.5, 0.0, 0.0]]);
+    draft.node(vec![json!({ "attributes": {
+        "POSITION": position, "NORMAL": normal, "JOINTS_0": joints, "WEIGHTS_0": weights,
+    }})]);
+    // The node of the mesh is ignored, and the second joint is bound where it stands.
+    draft.root["nodes"][0]["translation"] = json!([100, 0, 0]);
+    draft.root["nodes"][0]["skin"] = json!(0);
+    draft.add("nodes", json!({ "translation": [0, 0, 1], "children": [2] }));
+    draft.add("nodes", json!({ "translation": [0, 4, 0], "scale": [2, 2, 2] }));
+    let unit = [1., 0., 0., 0., 0., 1., 0., 0., 0., 0., 1., 0., 0., 0., 0., 1.];
+    let mut bind = [unit; 2];
+    bind[1][13] = -1.0;
+    let bytes: Vec<u8> = bind.iter().flatten().flat_map(|x: &f32| x.to_le_bytes()).collect();
+    let matrices = draft.accessor(5126, "MAT4", 2, &bytes);
+    draft.root["skins"] = json!([{ "joints": [1, 2], "inverseBindMatrices": matrices }]);
+    draft
+}
+
+#[test]
+fn skins_hang_on_their_joints_at_rest() {
+    // By the second joint: 2 (p − y) + 4 y + z.
+    let expected = [[0.0, 0.0, 1.0], [2.0, 2.0, 1.0], [0.0, 0.5 * 1.0 + 0.5 * 4.0, 1.0]];
+    assert_eq!(only(&skinned())[0], expected.map(Vec3::from));
+    assert_eq!(meshes(&skinned().model())[0].normals(), [Vec3::Z; 3]);
+}
+
+#[test]
+fn skins_that_do_not_fit_are_refused() {
+    for (pointer, value, message) in [
+        ("/nodes/0/skin", json!(1), "nodes[0].skin: there is no skins[1]"),
+        ("/skins/0/joints/0", json!(9), "skins[0].joints[0]: nodes[9] is no part of the scene"),
+        ("/skins/0/joints", json!([1]), "there is no joint 1, the skin has 1"),
+        ("/skins/0/joints", json!([1, 2, 1]), "2 matrices are too few for 3 joints"),
+    ] {
+        let mut draft = skinned();
+        *draft.root.pointer_mut(pointer).expect(pointer) = value;
+        assert!(draft.error().contains(message), "{message} in {}", draft.error());
+    }
+    for (name, message) in
+        [("WEIGHTS_0", "has JOINTS_0 without WEIGHTS_0"), ("JOINTS_0", "has no JOINTS_0")]
+    {
+        let mut draft = skinned();
+        let attributes = &mut draft.root["meshes"][0]["primitives"][0]["attributes"];
+        attributes.as_object_mut().expect("an object").remove(name);
+        assert!(draft.error().contains(message), "{message} in {}", draft.error());
+    }
 }

@@ -1,5 +1,6 @@
 //! Materials and their extensions.
 
+use alloc::vec;
 use alloc::vec::Vec;
 
 use serde_json::{Value, json};
@@ -130,11 +131,11 @@ fn what_is_unlit_shines_in_its_colour_and_reflects_nothing() {
 #[test]
 fn holes_are_masks_and_what_is_whole_has_none() {
     let opacity = |mode: &str, alpha: f64, cutoff: f64| {
-        let material = json!({
+        let described = json!({
             "alphaMode": mode, "alphaCutoff": cutoff, "emissiveFactor": [1, 1, 1],
             "pbrMetallicRoughness": { "baseColorFactor": [1, 1, 1, alpha] },
         });
-        let model = model(material);
+        let model = model(described);
         let radiance = match model.lights[..] {
             [Light::Area(light)] => value(&model, light.radiance),
             _ => 0.0,
