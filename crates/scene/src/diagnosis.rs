@@ -9,6 +9,7 @@ use etendue_math::Spectrum;
 use crate::Scene;
 use crate::light::Light;
 use crate::material::{Material, MaterialId};
+use crate::scene::Shows;
 
 /// Something that makes a picture other than its author expects.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -60,7 +61,9 @@ impl Scene {
         };
         let shortest =
             if self.path.hide_emitters || self.lights.iter().all(Light::is_delta) { 2 } else { 1 };
-        if !self.lights.iter().any(emits) {
+        if self.path.shows == Shows::Distance {
+            // Light does not matter.
+        } else if !self.lights.iter().any(emits) {
             found.push(Diagnosis::NoLight);
         } else if self.path.max_depth.is_some_and(|depth| depth < shortest) {
             found.push(Diagnosis::NoPath);
@@ -68,7 +71,10 @@ impl Scene {
         if self.surfaces.is_empty() {
             found.push(Diagnosis::NoShape);
         }
-        if !self.lights.is_empty() && self.lights.iter().all(Light::is_delta) {
+        if self.path.shows == Shows::Light
+            && !self.lights.is_empty()
+            && self.lights.iter().all(Light::is_delta)
+        {
             let mut specular = self.surfaces.iter().filter(|s| self.is_specular(s.material));
             if let Some(first) = specular.next() {
                 found.push(Diagnosis::SpecularUnderDeltaLights {

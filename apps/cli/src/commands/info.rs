@@ -75,6 +75,8 @@ fn material_name(material: &Material) -> &'static str {
     match material {
         Material::Diffuse { .. } => "diffuse",
         Material::RoughDiffuse { .. } => "rough diffuse",
+        Material::DiffuseTransmitter { .. } => "diffuse transmitter",
+        Material::Phong { .. } => "phong",
         Material::Dielectric { roughness: None, .. } => "dielectric",
         Material::Dielectric { .. } => "rough dielectric",
         Material::ThinDielectric { .. } => "thin dielectric",

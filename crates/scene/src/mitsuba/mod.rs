@@ -25,12 +25,14 @@ mod ior;
 mod load;
 mod medium;
 mod model;
+mod mtl;
 mod origins;
 mod reader;
 mod sampler;
 mod scene;
 mod sensor;
 mod shape;
+mod spectrum;
 mod texture;
 mod value;
 
