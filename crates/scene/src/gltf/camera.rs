@@ -49,7 +49,7 @@ pub(super) fn first(document: &Document, nodes: &[Node<'_>]) -> Result<Option<Vi
             let frame = frame(to_world, to_world.matrix3.y_axis);
             let frame =
                 frame.map_err(|error| json.error(format!("cannot hold a camera: {error}")))?;
-            return of(&camera, frame).map(Some);
+            return of(&camera, &frame).map(Some);
         }
     }
     Ok(None)
@@ -64,7 +64,7 @@ pub(super) fn frame(node: &DAffine3, up: DVec3) -> Result<Transform, TransformEr
     Transform::translate(node.translation)?.compose(&turned)
 }
 
-fn of(camera: &Json<'_>, to_world: Transform) -> Result<View, SceneError> {
+fn of(camera: &Json<'_>, to_world: &Transform) -> Result<View, SceneError> {
     let kind = camera.need("type")?;
     let name = kind.as_text()?;
     if !["perspective", "orthographic"].contains(&name) {
@@ -99,10 +99,10 @@ fn of(camera: &Json<'_>, to_world: Transform) -> Result<View, SceneError> {
         (Lens::Orthographic(2.0 * y), Some(x / y), near)
     };
     let far = json.number("zfar")?.unwrap_or(FAR);
-    if !(near < far) {
+    if near >= far {
         return Err(json.error(format!("zfar must be larger than znear, {near}, not {far}")));
     }
-    Ok(View { lens, to_world, clip: [near as f32, far as f32], aspect })
+    Ok(View { lens, to_world: *to_world, clip: [near as f32, far as f32], aspect })
 }
 
 impl Lens {

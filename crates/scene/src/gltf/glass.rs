@@ -175,7 +175,7 @@ fn inside(
 ) -> Result<Option<MediumId>, SceneError> {
     let color = super::color(volume, "attenuationColor", [1.0; 3])?;
     let Some(distance) = volume.number("attenuationDistance")? else { return Ok(None) };
-    if !(distance > 0.0) {
+    if distance <= 0.0 {
         return Err(volume.error(format!("“attenuationDistance” must be positive, not {distance}")));
     }
     let sigma = color.map(|left| -Real::ln(left.clamp(DARKEST, 1.0)) / distance as f32);

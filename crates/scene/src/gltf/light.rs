@@ -60,14 +60,14 @@ fn translate(json: &Json<'_>, to_world: &DAffine3) -> Result<Light, SceneError> 
             let direction = frame()?.vector(Vec3::Z);
             Light::Directional(DirectionalLight { direction, irradiance: emitted })
         }
-        "spot" => Light::Spot(spot(json, emitted, frame()?)?),
+        "spot" => Light::Spot(spot(json, emitted, &frame()?)?),
         other => {
             return Err(kind.error(format!("“{other}” is none of point, spot and directional")));
         }
     })
 }
 
-fn spot(json: &Json<'_>, intensity: Color, frame: Transform) -> Result<SpotLight, SceneError> {
+fn spot(json: &Json<'_>, intensity: Color, frame: &Transform) -> Result<SpotLight, SceneError> {
     let cone = json.get("spot")?;
     let angle = |name: &str, default: f64| match &cone {
         Some(cone) => cone.number_in(name, default, 0.0..=core::f64::consts::FRAC_PI_2),
@@ -75,6 +75,6 @@ fn spot(json: &Json<'_>, intensity: Color, frame: Transform) -> Result<SpotLight
     };
     let inner = angle("innerConeAngle", 0.0)?;
     let outer = angle("outerConeAngle", core::f64::consts::FRAC_PI_4)?;
-    SpotLight::new(frame, intensity, None, outer.to_degrees(), inner.to_degrees())
+    SpotLight::new(*frame, intensity, None, outer.to_degrees(), inner.to_degrees())
         .map_err(|error| json.error(error))
 }

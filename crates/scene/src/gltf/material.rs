@@ -8,12 +8,17 @@ use super::json::Json;
 use super::mesh::{ALPHA, COLOR};
 use super::principled;
 use super::texture::{self, Part, constant, product};
+use crate::effect::Element;
 use crate::material::{Material, MaterialId, Perturbation};
 use crate::medium::Boundary;
 use crate::texture::{AttributeTexture, Texture, TextureId, Threshold};
 use crate::{Color, SceneError};
 
 /// A material as one primitive wears it.
+#[expect(
+    clippy::struct_excessive_bools,
+    reason = "each is a fact about the primitive, and none excludes another"
+)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Look {
     /// In the document's list; none for the default one.
@@ -244,14 +249,14 @@ impl<'a> Reading<'_, 'a> {
     /// The base colour.
     pub(super) fn base_color(&mut self) -> Result<TextureId, SceneError> {
         let color = self.plain_color()?;
-        Ok(if self.look.has_colors { self.times_attribute(color, COLOR) } else { color })
+        if self.look.has_colors { self.times_attribute(color, COLOR) } else { Ok(color) }
     }
 
-    fn times_attribute(&mut self, texture: TextureId, name: &str) -> TextureId {
-        let textures = &mut self.builder.model.textures;
+    fn times_attribute(&mut self, texture: TextureId, name: &str) -> Result<TextureId, SceneError> {
         let attribute = AttributeTexture { name: name.into(), scale: 1.0 };
-        let attribute = textures.add(Texture::Attribute(attribute));
-        product(textures, texture, attribute)
+        let attribute = self.builder.model.textures.add(Texture::Attribute(attribute));
+        self.builder.note(Element::Texture(attribute), &self.json)?;
+        Ok(product(&mut self.builder.model.textures, texture, attribute))
     }
 
     /// What there is of the surface; none where all of it is.

@@ -57,8 +57,10 @@ pub(super) fn add(builder: &mut Builder<'_>, nodes: &[Node<'_>]) -> Result<(), S
         let parts = parts(builder, &meshes[index], None)?;
         let shines = parts.iter().any(|part| part.substance.radiance.is_some());
         if uses.len() == 1 || shines {
-            let vertices: usize = parts.iter().map(|part| part.mesh.positions().len()).sum();
-            builder.buffers.spend((vertices * (uses.len() - 1)) as u64, &meshes[index])?;
+            let size = |part: &Part| part.mesh.positions().len() + part.mesh.triangles().len();
+            let copies = uses.len().saturating_sub(1) as u64;
+            let elements = parts.iter().map(size).sum::<usize>() as u64;
+            builder.buffers.spend(elements.saturating_mul(copies), &meshes[index])?;
             for used in &uses {
                 add_in_place(builder, &parts, used)?;
             }

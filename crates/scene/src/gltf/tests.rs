@@ -104,7 +104,7 @@ impl Draft {
     }
 
     /// Adds a node with a mesh of these primitives.
-    fn node(&mut self, primitives: Vec<Value>) -> usize {
+    fn node(&mut self, primitives: &[Value]) -> usize {
         let mesh = self.add("meshes", json!({ "primitives": primitives }));
         self.add("nodes", json!({ "mesh": mesh }))
     }
@@ -120,7 +120,7 @@ impl Draft {
     fn wear(&mut self, material: Value) {
         let mut square = self.square();
         square["material"] = self.add("materials", material).into();
-        self.node(vec![square]);
+        self.node(&[square]);
     }
 
     /// The file: a binary container.

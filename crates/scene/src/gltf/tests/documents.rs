@@ -50,7 +50,7 @@ fn versions_and_required_extensions_are_checked_first() {
 fn what_is_used_and_unknown_is_one_warning() {
     let mut draft = Draft::new();
     let square = draft.square();
-    draft.node(vec![square]);
+    draft.node(&[square]);
     let used = ["KHR_materials_ior", "KHR_materials_iridescence", "KHR_animation_pointer"];
     draft.root["extensionsUsed"] = json!(used);
     draft.root["animations"] = json!([{}]);
@@ -64,7 +64,7 @@ fn what_is_used_and_unknown_is_one_warning() {
 fn a_container_that_is_cut_off_anywhere_is_refused() {
     let mut draft = Draft::new();
     let square = draft.square();
-    draft.node(vec![square]);
+    draft.node(&[square]);
     let whole = draft.glb();
     assert!(load(&whole).is_ok());
     for length in 0..whole.len() {
@@ -103,7 +103,7 @@ fn chunks_must_fit_and_begin_with_json() {
 fn the_same_square_from_every_kind_of_file_is_the_same() {
     let mut draft = Draft::new();
     let square = draft.square();
-    draft.node(vec![square]);
+    draft.node(&[square]);
     let folder = tempfile::tempdir().expect("a temporary folder");
     let write = |name: &str, bytes: &[u8]| {
         let path = folder.path().join(name);
@@ -170,7 +170,7 @@ fn the_scene_of_the_file_is_read_else_the_first_else_everything() {
     let mut draft = Draft::new();
     for x in 0..3_u8 {
         let square = draft.square();
-        let node = draft.node(vec![square]);
+        let node = draft.node(&[square]);
         draft.root["nodes"][node]["translation"] = json!([x, 0, 0]);
     }
     let left = |draft: &Draft| {

@@ -24,7 +24,7 @@ fn triangles_strips_and_fans_are_read_with_and_without_indices() {
     let mut draft = Draft::new();
     let points = [[0., 0., 0.], [1., 0., 0.], [0., 1., 0.], [1., 1., 0.]];
     let position = draft.floats(&points);
-    draft.node(vec![json!({ "attributes": { "POSITION": position } })]);
+    draft.node(&[json!({ "attributes": { "POSITION": position } })]);
     let [a, b, c, d] = points.map(Vec3::from);
     // An incomplete triangle at the end is none.
     assert_eq!(only(&draft), [[a, b, c]]);
@@ -50,7 +50,7 @@ fn triangles_strips_and_fans_are_read_with_and_without_indices() {
 fn points_and_lines_are_left_out_with_a_warning() {
     let mut draft = Draft::new();
     let position = draft.floats(&TRIANGLE);
-    draft.node(vec![
+    draft.node(&[
         json!({ "attributes": { "POSITION": position }, "mode": 1 }),
         json!({ "attributes": { "POSITION": position } }),
         json!({ "attributes": {} }),
@@ -66,7 +66,7 @@ fn points_and_lines_are_left_out_with_a_warning() {
 fn meshes_without_normals_are_faceted_and_normals_decide_the_front() {
     let mut draft = Draft::new();
     let square = draft.square();
-    draft.node(vec![square]);
+    draft.node(&[square]);
     assert!(meshes(&draft.model())[0].normals().is_empty());
     let normal = draft.floats(&[[0.0, 0.0, -1.0]; 4]);
     draft.root["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] = json!(normal);
@@ -79,7 +79,7 @@ fn meshes_without_normals_are_faceted_and_normals_decide_the_front() {
 fn sparse_elements_replace_others_and_zeros() {
     let mut draft = Draft::new();
     let position = draft.floats(&TRIANGLE);
-    draft.node(vec![json!({ "attributes": { "POSITION": position } })]);
+    draft.node(&[json!({ "attributes": { "POSITION": position } })]);
     let indices = draft.view(&[2]);
     let values: Vec<u8> = [3.0_f32, 4.0, 5.0].iter().flat_map(|x| x.to_le_bytes()).collect();
     let values = draft.view(&values);
@@ -108,7 +108,7 @@ fn quantised_positions_are_scaled_by_their_node_and_strides_are_kept() {
     let normal = draft.accessor(5122, "VEC3", 3, &normal.repeat(3));
     draft.root["accessors"][normal]["normalized"] = json!(true);
     let attributes = json!({ "POSITION": position, "NORMAL": normal });
-    draft.node(vec![json!({ "attributes": attributes })]);
+    draft.node(&[json!({ "attributes": attributes })]);
     draft.root["nodes"][0]["scale"] = json!([2, 2, 2]);
     let corners = |draft: &Draft| only(draft)[0].map(|p| p.to_array());
     assert_eq!(corners(&draft), [[0.0; 3], [510.0, 0.0, 0.0], [0.0, 102.0, 0.0]]);
@@ -122,7 +122,7 @@ fn signed_numbers_are_normalised_to_one_on_both_sides() {
     let mut draft = Draft::new();
     let position = draft.accessor(5120, "VEC3", 3, &[0x80, 0x81, 127, 0, 0, 0, 127, 0, 0]);
     draft.root["accessors"][position]["normalized"] = json!(true);
-    draft.node(vec![json!({ "attributes": { "POSITION": position } })]);
+    draft.node(&[json!({ "attributes": { "POSITION": position } })]);
     assert_eq!(only(&draft)[0][0], Vec3::new(-1.0, -1.0, 1.0));
 }
 
@@ -130,7 +130,7 @@ fn signed_numbers_are_normalised_to_one_on_both_sides() {
 fn nodes_place_what_hangs_below_them() {
     let mut draft = Draft::new();
     let position = draft.floats(&TRIANGLE);
-    let child = draft.node(vec![json!({ "attributes": { "POSITION": position } })]);
+    let child = draft.node(&[json!({ "attributes": { "POSITION": position } })]);
     // A quarter of a turn about z, then twice as large, moved up; then moved along x by a matrix, column by column.
     let half = core::f64::consts::FRAC_1_SQRT_2;
     draft.root["nodes"][child]["rotation"] = json!([0.0, 0.0, half, half]);
@@ -150,7 +150,7 @@ fn nodes_place_what_hangs_below_them() {
 fn mirrored_nodes_keep_fronts_in_front() {
     let mut draft = Draft::new();
     let square = draft.square();
-    let node = draft.node(vec![square]);
+    let node = draft.node(&[square]);
     draft.root["nodes"][node]["scale"] = json!([-1, 1, 1]);
     assert_eq!(meshes(&draft.model())[0].facet(0).normal, Vec3::Z);
     draft.root["nodes"][node]["scale"] = json!([0, 1, 1]);
@@ -163,7 +163,7 @@ fn mirrored_nodes_keep_fronts_in_front() {
 fn a_mesh_that_is_used_again_is_instanced() {
     let mut draft = Draft::new();
     let square = draft.square();
-    draft.node(vec![square]);
+    draft.node(&[square]);
     draft.add("nodes", json!({ "mesh": 0, "translation": [4, 0, 0] }));
     draft.add("nodes", json!({ "mesh": 0, "translation": [8, 0, 0], "scale": [2, 2, 1] }));
     let model = draft.model();
@@ -182,7 +182,7 @@ fn a_mesh_that_is_used_again_is_instanced() {
 fn places_may_be_listed_in_a_buffer() {
     let mut draft = Draft::new();
     let square = draft.square();
-    let node = draft.node(vec![square]);
+    let node = draft.node(&[square]);
     let translation = draft.floats(&[[0.0, 0.0, 0.0], [4.0, 0.0, 0.0]]);
     let scale = draft.floats(&[[1.0, 1.0, 1.0], [0.5, 0.5, 1.0]]);
     let attributes = json!({ "TRANSLATION": translation, "SCALE": scale });
@@ -217,7 +217,7 @@ fn skinned() -> Draft {
     let normal = draft.floats(&[[0.0, 0.0, 1.0]; 3]);
     let joints = draft.accessor(5121, "VEC4", 3, &[0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0]);
     let weights = draft.floats(&[[1.0, 0.0, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0], [0.5, 0.5, 0.0, 0.0]]);
-    draft.node(vec![json!({ "attributes": {
+    draft.node(&[json!({ "attributes": {
         "POSITION": position, "NORMAL": normal, "JOINTS_0": joints, "WEIGHTS_0": weights,
     }})]);
     // The node of the mesh is ignored, and the second joint is bound where it stands.

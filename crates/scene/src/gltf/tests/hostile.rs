@@ -195,9 +195,24 @@ fn zeros_without_a_buffer_are_not_free() {
 #[test]
 fn vertices_that_are_shared_a_million_times_are_refused() {
     let mut draft = Draft::new();
-    let position = draft.accessor(5126, "VEC3", 10_000, &[0; 120_000]);
+    let position = draft.accessor(5126, "VEC3", 10_000, &vec![0; 120_000]);
     let primitive = json!({ "attributes": { "POSITION": position } });
-    draft.node(vec![primitive; 2000]);
+    draft.node(&vec![primitive; 2000]);
+    let error = draft.load().err().expect("an error");
+    assert_eq!(error.kind, ErrorKind::Resource, "{error}");
+}
+
+#[test]
+fn lists_of_places_may_be_empty_and_are_not_free() {
+    let mut draft = Draft::of_material(json!({ "emissiveFactor": [1, 1, 1] }));
+    let places = draft.accessor(5121, "VEC3", 0, &[]);
+    let attributes = json!({ "TRANSLATION": places });
+    draft.root["nodes"][0]["extensions"] =
+        json!({ "EXT_mesh_gpu_instancing": { "attributes": attributes } });
+    assert_eq!(draft.model().surfaces.len(), 0);
+    // Nothing but zeros, and each place a copy of what shines.
+    draft.root["accessors"][places] =
+        json!({ "componentType": 5121, "type": "VEC3", "count": 2_000_000 });
     let error = draft.load().err().expect("an error");
     assert_eq!(error.kind, ErrorKind::Resource, "{error}");
 }
@@ -275,7 +290,7 @@ fn transforms_and_coordinates_that_are_not_finite_are_refused() {
     }
     let mut draft = Draft::new();
     let position = draft.floats(&[[0.0, 0.0, f32::NAN], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]);
-    draft.node(vec![json!({ "attributes": { "POSITION": position } })]);
+    draft.node(&[json!({ "attributes": { "POSITION": position } })]);
     let message = "meshes[0].primitives[0].attributes: the position of vertex 0 is not finite";
     assert!(draft.error().contains(message), "{}", draft.error());
     let position = draft.floats(&[[0.0; 3]; 3]);

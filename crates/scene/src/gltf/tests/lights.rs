@@ -1,5 +1,8 @@
 //! Lights and cameras.
 
+use alloc::vec;
+
+use etendue_math::Real;
 use etendue_math::glam::Vec3;
 use serde_json::{Value, json};
 
@@ -13,7 +16,8 @@ use crate::{LoadOptions, LoadedScene, load_scene};
 fn with_light(light: Value) -> Draft {
     let mut draft = Draft::new();
     let half = core::f64::consts::FRAC_1_SQRT_2;
-    draft.root["extensions"] = json!({ "KHR_lights_punctual": { "lights": [light] } });
+    draft.root["extensions"] = json!({ "KHR_lights_punctual": { "lights": [] } });
+    draft.root["extensions"]["KHR_lights_punctual"]["lights"] = Value::Array(vec![light]);
     draft.add(
         "nodes",
         json!({
@@ -104,7 +108,7 @@ fn lights_outside_their_domain_are_refused_where_they_stand() {
 /// A camera at (0, 0, 5) that looks at the origin, in a scene with a square.
 fn with_camera(camera: Value) -> Draft {
     let mut draft = Draft::of_material(json!({}));
-    draft.root["cameras"] = json!([camera]);
+    draft.root["cameras"] = Value::Array(vec![camera]);
     draft.add("nodes", json!({ "camera": 0, "translation": [0, 0, 5], "scale": [3, 3, 3] }));
     draft
 }
@@ -128,7 +132,7 @@ fn a_camera_looks_along_its_node_with_up_and_right_where_they_belong() {
     let draft = with_camera(json!({ "type": "perspective", "perspective": lens }));
     let scene = loaded(&draft, &LoadOptions::default()).scene;
     assert_eq!(scene.film.size, [768, 384]);
-    let half = 5.0 * 0.25_f32.tan();
+    let half = 5.0 * Real::tan(0.25_f32);
     for (at, expected) in [
         ([0.5, 0.5], Vec3::ZERO),
         ([1.0, 0.5], Vec3::X * (2.0 * half)),

@@ -3,6 +3,7 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
+use etendue_math::Real;
 use serde_json::{Value, json};
 
 use super::{Draft, warnings};
@@ -58,7 +59,9 @@ fn color(model: &Model, id: TextureId) -> [f32; 3] {
 }
 
 fn extended(name: &str, extension: Value) -> Value {
-    json!({ "extensions": { name: extension } })
+    let mut material = json!({ "extensions": {} });
+    material["extensions"][name] = extension;
+    material
 }
 
 #[test]
@@ -80,7 +83,7 @@ fn metal_and_roughness_are_those_of_principled() {
     // A primitive without a material is of the default one.
     let mut draft = Draft::new();
     let square = draft.square();
-    draft.node(vec![square]);
+    draft.node(&[square]);
     let bare = draft.model();
     assert_eq!(value(&bare, principled(&bare).metallic), 1.0);
 }
@@ -160,8 +163,8 @@ fn transmitting(factor: f64, roughness: f64, extensions: Value) -> Value {
         "pbrMetallicRoughness": {
             "baseColorFactor": [0.25, 0.5, 1, 1], "metallicFactor": 0, "roughnessFactor": roughness,
         },
-        "extensions": extensions,
     });
+    material["extensions"] = extensions;
     material["extensions"]["KHR_materials_transmission"] = json!({ "transmissionFactor": factor });
     material
 }
@@ -207,7 +210,7 @@ fn a_body_is_glass_with_an_absorbing_medium_inside() {
     let medium = glass.media.get(boundary.interior.expect("a medium inside")).expect("a medium");
     let Extinction::Homogeneous(sigma) = medium.extinction else { panic!("it is homogeneous") };
     // −ln c / 2; black is as dark as 1e-6.
-    let expected = [0.0, core::f32::consts::LN_2 / 2.0, -(1e-6_f32).ln() / 2.0];
+    let expected = [0.0, core::f32::consts::LN_2 / 2.0, -Real::ln(1e-6_f32) / 2.0];
     for (found, expected) in sigma.to_array().into_iter().zip(expected) {
         assert!((found - expected).abs() <= 1e-6 * expected, "{found} {expected}");
     }
