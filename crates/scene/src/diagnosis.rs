@@ -52,6 +52,7 @@ impl Scene {
         let mut found = Vec::new();
         let emits = |light: &Light| match light {
             Light::Area(area) => !self.textures.max(area.radiance).is_black(),
+            Light::Beam(beam) => !self.textures.max(beam.exitance).is_black(),
             Light::Point(light) => !light.intensity.is_black(),
             Light::Spot(light) => light.power(&self.textures) > 0.0,
             Light::Projector(light) => light.power(&self.textures) > 0.0,

@@ -86,6 +86,7 @@ fn material_name(material: &Material) -> &'static str {
         Material::Plastic { .. } => "plastic",
         Material::Principled(_) => "principled",
         Material::PrincipledThin(_) => "thin principled",
+        Material::Coated { .. } => "coated",
         Material::Mask { .. } => "mask",
         Material::Blend { .. } => "blend",
         Material::NormalMap { .. } => "normal map",
@@ -98,6 +99,7 @@ fn material_name(material: &Material) -> &'static str {
 fn light_name(light: &Light) -> &'static str {
     match light {
         Light::Area(_) => "area",
+        Light::Beam(_) => "directional area",
         Light::Point(_) => "point",
         Light::Spot(_) => "spot",
         Light::Projector(_) => "projector",

@@ -277,7 +277,7 @@ impl<'a> Reading<'_, 'a> {
         let part = Part::Channel(3);
         let of_texture = self.textured(&object, "baseColorTexture", part, Color::splat(alpha))?;
         let opacity =
-            if self.look.has_alpha { self.times_attribute(of_texture, ALPHA) } else { of_texture };
+            if self.look.has_alpha { self.times_attribute(of_texture, ALPHA)? } else { of_texture };
         let [opacity, of_texture] = [opacity, of_texture].map(|opacity| match limit {
             Some(limit) => self.threshold(opacity, limit),
             None => opacity,

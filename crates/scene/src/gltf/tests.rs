@@ -8,7 +8,6 @@ mod materials;
 mod textures;
 
 use alloc::string::String;
-use alloc::vec;
 use alloc::vec::Vec;
 use std::path::Path;
 

@@ -9,7 +9,7 @@ use etendue_brdf::{
 
 use etendue_math::glam::Vec3;
 
-use super::composed::{Composed, Composition, Parts};
+use super::composed::{Coat, Composed, Composition, Parts};
 use super::model::{PrincipledModel, PrincipledThinModel};
 use super::perturbed::Perturbed;
 use super::prepared::Placed;
@@ -296,6 +296,10 @@ fn model<'a, C: Channels>(material: Option<&'a Material>, at: At<'a, C>) -> Mode
         Material::Blend { weight, parts } => {
             let weight = Opacity::clamped(at.value(weight));
             at.composed(Composition::Blend { parts, weight })
+        }
+        Material::Coated { eta, absorption, thickness, specular_reflectance, nested } => {
+            let coat = Coat { eta, absorption, thickness, specular_reflectance };
+            at.composed(Composition::Coated { nested, coat })
         }
         Material::NormalMap { normal, options, nested } => {
             let color = at.textures.color(normal, at.point);

@@ -5,6 +5,7 @@ use alloc::string::String;
 use alloc::vec::Vec;
 use std::path::Path;
 
+use super::emitter::Emission;
 use super::mtl::Look;
 use super::shape::{Surface, add_surface, shaded};
 use super::{Context, LoadOptions, LoadedScene, bsdf, mtl, scene};
@@ -46,8 +47,8 @@ pub(super) fn mesh(path: &Path, options: &LoadOptions) -> Result<LoadedScene, Sc
         let Look { material, radiance } =
             material.and_then(|index| own.get(index)).copied().unwrap_or(other);
         let shape = Shape::Mesh(mesh);
-        let radiance = radiance.filter(|_| shape.area_total() > 0.0);
-        let surface = Surface { shape, motion: None, material, radiance, boundary: None, name };
+        let emission = radiance.filter(|_| shape.area_total() > 0.0).map(Emission::Everywhere);
+        let surface = Surface { shape, motion: None, material, emission, boundary: None, name };
         add_surface(&mut context, surface);
     }
     if context.lights.is_empty() {

@@ -1,6 +1,5 @@
 //! Materials and their extensions.
 
-use alloc::vec;
 use alloc::vec::Vec;
 
 use etendue_math::Real;
