@@ -16,7 +16,7 @@ use crate::{Location, SceneError, Warning};
 const LARGEST: usize = 1 << 28;
 
 /// The extensions that mean something here.
-const EXTENSIONS: [&str; 13] = [
+pub(super) const EXTENSIONS: [&str; 13] = [
     "EXT_mesh_gpu_instancing",
     "KHR_lights_punctual",
     "KHR_materials_anisotropy",

@@ -3,6 +3,7 @@
 use etendue_math::Spectrum;
 
 use super::builder::Builder;
+use super::document::EXTENSIONS;
 use super::glass::{self, Transmission};
 use super::json::Json;
 use super::mesh::{ALPHA, COLOR};
@@ -78,7 +79,9 @@ pub(super) fn set(json: &Json<'_>) -> Result<usize, SceneError> {
     // Base colour and roughness come first.
     objects.reverse();
     if let Some(extensions) = json.get("extensions")? {
-        objects.extend(extensions.properties()?.into_iter().map(|(_, extension)| extension));
+        let known =
+            extensions.properties()?.into_iter().filter(|(name, _)| EXTENSIONS.contains(name));
+        objects.extend(known.map(|(_, extension)| extension));
     }
     for object in objects {
         for (name, reference) in object.properties()? {

@@ -60,6 +60,12 @@ fn what_is_used_and_unknown_is_one_warning() {
 }
 
 #[test]
+fn what_is_inside_unknown_extensions_is_nobody_s_business() {
+    let material = json!({ "extensions": { "ANY_thing": 5, "ANY_other": { "oddTexture": [] } } });
+    assert_eq!(Draft::of_material(material).model().surfaces.len(), 1);
+}
+
+#[test]
 fn a_container_that_is_cut_off_anywhere_is_refused() {
     let mut draft = Draft::new();
     let square = draft.square();
