@@ -185,7 +185,7 @@ mod tests {
             // Lambert's model does not choose; the number is beyond the interface.
             coat.sample(&white(), wo, 0.999, u).map_or(0.0, |s| f64::from(s.weight))
         });
-        let mean = weights.sum::<f64>() / f64::from(n).powi(2);
+        let mean = weights.sum::<f64>() / (f64::from(n) * f64::from(n));
         // Without absorption the interface is chosen as often as it reflects, so that the weight is that of what entered. The
         // diffuse transmittance of η = 1.5 from inside is (1 − 0.091778) / 1.5², which the one from outside gives.
         let expected = (1.0 - 0.091_778) / 2.25;

@@ -1,7 +1,8 @@
 //! The examples of plugins.
 
+use alloc::collections::BTreeSet;
 use alloc::vec::Vec;
-use std::collections::BTreeSet;
+
 use std::path::PathBuf;
 
 use super::*;
