@@ -8,7 +8,7 @@ use common::golden::Golden;
 use common::{Folder, Picture, repository};
 
 /// Measured with `--spp 64`, seeds 0 to 7; `tests/golden/README.md` says how.
-const GOLDEN: [Golden<'static>; 4] = [
+const GOLDEN: [Golden<'static>; 5] = [
     Golden {
         scene: "scenes/cornell-box/scene.xml",
         name: "cornell-box",
@@ -22,6 +22,13 @@ const GOLDEN: [Golden<'static>; 4] = [
         size: "64x40",
         relative_mse: 0.052,
         mean_difference: 0.018,
+    },
+    Golden {
+        scene: "scenes/gltf/still-life.gltf",
+        name: "still-life",
+        size: "64x40",
+        relative_mse: 0.033,
+        mean_difference: 0.0101,
     },
     Golden {
         scene: "scenes/lambert-oren-nayar.xml",
@@ -45,7 +52,10 @@ fn scene_files(folder: &Path, found: &mut Vec<PathBuf>) {
         let path = entry.expect("an entry").path();
         if path.is_dir() {
             scene_files(&path, found);
-        } else if path.extension().is_some_and(|extension| extension == "xml") {
+        } else if path
+            .extension()
+            .is_some_and(|extension| extension == "xml" || extension == "gltf")
+        {
             found.push(path);
         }
     }

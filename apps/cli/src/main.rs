@@ -25,7 +25,7 @@ mod progress;
 use commands::{accuracy, brdf, compare, effects, info, render};
 use failure::{Exit, Failure};
 
-/// Renders Mitsuba scenes and bare meshes, exactly and fast.
+/// Renders Mitsuba scenes, glTF models and bare meshes, exactly and fast.
 #[derive(Debug, Parser)]
 #[command(name = "etendue", version, after_help = EXIT_CODES)]
 struct Arguments {

@@ -11,6 +11,8 @@ pub mod color;
 pub mod effect;
 pub mod film;
 pub mod geometry;
+#[cfg(feature = "std")]
+mod gltf;
 pub mod light;
 #[cfg(feature = "std")]
 pub mod load;

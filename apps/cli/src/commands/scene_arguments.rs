@@ -10,7 +10,7 @@ use crate::failure::Failure;
 /// Which scene, and how it is read.
 #[derive(Debug, clap::Args)]
 pub(crate) struct SceneArguments {
-    /// A scene in Mitsuba's XML, or a bare mesh (.obj, .ply).
+    /// A scene in Mitsuba's XML, a glTF model (.gltf, .glb), or a bare mesh (.obj, .ply).
     pub(crate) scene: PathBuf,
     /// Set a parameter of the scene file, as in `-D spp=64`.
     #[arg(short = 'D', value_name = "NAME=VALUE", value_parser = definition)]
@@ -18,7 +18,7 @@ pub(crate) struct SceneArguments {
     /// Report unknown parameters as warnings instead of errors.
     #[arg(long)]
     lenient: bool,
-    /// Material of a bare mesh, as in `--bsdf roughconductor:material=Au,alpha=0.2`.
+    /// Material of a bare mesh or of all of a model, as in `--bsdf roughconductor:material=Au,alpha=0.2`.
     #[arg(long, value_name = "TYPE[:KEY=VALUE,…]")]
     bsdf: Option<String>,
 }

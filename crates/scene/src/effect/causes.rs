@@ -22,7 +22,8 @@ pub(super) fn of_light(light: &Light) -> Effect {
 /// The effect of a texture that varies.
 pub(super) fn of_texture(texture: &Texture) -> Option<Effect> {
     match texture {
-        Texture::Constant(_) => None,
+        // What they are made of counts by itself.
+        Texture::Constant(_) | Texture::Product(_) | Texture::Threshold(_) => None,
         Texture::Bitmap(_) => Some(Effect::BitmapTexture),
         Texture::Checkerboard(_) => Some(Effect::CheckerboardTexture),
         Texture::Attribute(_) => Some(Effect::MeshAttribute),

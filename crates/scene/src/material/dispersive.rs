@@ -2,7 +2,8 @@
 
 use etendue_brdf::fresnel::Dispersion;
 use etendue_brdf::{
-    Bsdf, Density, Ior, Lobes, Microfacets, Reflectance, RoughDielectric, Sample, SmoothDielectric,
+    Bsdf, Density, Ior, Lobes, Microfacets, ParameterError, Reflectance, RoughDielectric, Sample,
+    SmoothDielectric,
 };
 use etendue_math::glam::Vec3;
 use etendue_math::{Real, Spectrum};
@@ -21,7 +22,24 @@ impl RelativeDispersion {
     pub fn index(&self, wavelength: f32) -> f32 {
         (self.interior.index(f64::from(wavelength)) / self.exterior) as f32
     }
+
+    /// The index of the yellow line of helium, for which catalogues state indices, if every wavelength that is seen has a usable
+    /// one.
+    ///
+    /// # Errors
+    /// A wavelength in nm whose index lies outside the domain of [`Ior`], and how.
+    pub fn checked(&self) -> Result<Ior<f32>, (f32, ParameterError)> {
+        let index = |nm: f32| Ior::new(self.index(nm)).map_err(|error| (nm, error));
+        SEEN.step_by(5).try_for_each(|nm| index(f32::from(nm)).map(drop))?;
+        index(D_LINE)
+    }
 }
+
+/// The yellow line of helium, in nm.
+const D_LINE: f32 = 587.5618;
+
+/// The wavelengths that are seen, in nm.
+const SEEN: core::ops::RangeInclusive<u16> = 360..=830;
 
 /// A smooth or rough dielectric interface with an index per channel.
 ///

@@ -12,26 +12,23 @@ use super::{Context, LoadOptions, LoadedScene, bsdf, mtl, scene};
 use crate::geometry::Shape;
 use crate::light::{ConstantLight, Light};
 use crate::load::{MeshFile, MtlMaterial, ObjMesh, ObjScene, TexCoords, load_obj, load_ply};
+use crate::material::MaterialId;
 use crate::scene::PathSettings;
-use crate::xml::{Leniency, parse_float, parse_list, parse_text};
+use crate::xml::{Description, Leniency, parse_float, parse_list, parse_text};
 use crate::{Color, Location, SceneError};
+
+/// Where there is no light.
+pub(super) const WHITE_SKY: Light =
+    Light::Constant(ConstantLight { radiance: Color::new(1.0, 1.0, 1.0) });
 
 /// The mesh of a file, in white light from everywhere unless it emits light itself.
 ///
 /// # Errors
 /// A file that is no mesh, a bsdf that is none.
 pub(super) fn mesh(path: &Path, options: &LoadOptions) -> Result<LoadedScene, SceneError> {
-    // The option is read as a scene file with this bsdf would be.
-    let element = options.bsdf.as_deref().map(bsdf_element).unwrap_or_default();
-    let text = format!("<scene version=\"3.0.0\">{element}</scene>");
-    let mut description = parse_text(&text, Path::new("--bsdf"), &[], Leniency::Strict)?;
-    description.files = Vec::from([path.to_path_buf()]);
+    let description = described(path, options)?;
     let mut context = Context::new(&description, options);
-    let mut given = None;
-    if let Some(child) = description.root().children.first() {
-        let material = bsdf::translate(&mut context, child.node)?;
-        given = Some(mtl::on_both_sides(&mut context, material));
-    }
+    let given = given(&mut context)?;
     let ObjScene { meshes, materials, warnings } = read(path)?;
     context.warnings.extend(warnings);
     let own: Vec<Look> = if given.is_none() {
@@ -55,10 +52,25 @@ pub(super) fn mesh(path: &Path, options: &LoadOptions) -> Result<LoadedScene, Sc
         add_surface(&mut context, surface);
     }
     if context.lights.is_empty() {
-        let radiance = Color::new(1.0, 1.0, 1.0);
-        context.lights.push(Light::Constant(ConstantLight { radiance }));
+        context.lights.push(WHITE_SKY);
     }
     scene::assemble(context, None, PathSettings::default())
+}
+
+/// A scene file with nothing but the bsdf that the options ask for, which is read as any other.
+pub(super) fn described(path: &Path, options: &LoadOptions) -> Result<Description, SceneError> {
+    let element = options.bsdf.as_deref().map(bsdf_element).unwrap_or_default();
+    let text = format!("<scene version=\"3.0.0\">{element}</scene>");
+    let mut description = parse_text(&text, Path::new("--bsdf"), &[], Leniency::Strict)?;
+    description.files = Vec::from([path.to_path_buf()]);
+    Ok(description)
+}
+
+/// The material that the options ask for, if they do.
+pub(super) fn given(context: &mut Context<'_>) -> Result<Option<MaterialId>, SceneError> {
+    let Some(child) = context.description.root().children.first() else { return Ok(None) };
+    let material = bsdf::translate(context, child.node)?;
+    Ok(Some(mtl::on_both_sides(context, material)))
 }
 
 /// The parts of a mesh file; a PLY file has one.

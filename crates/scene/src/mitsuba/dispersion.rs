@@ -2,7 +2,7 @@
 
 use alloc::boxed::Box;
 use alloc::format;
-use alloc::string::{String, ToString};
+use alloc::string::String;
 use alloc::vec::Vec;
 
 use etendue_brdf::Ior;
@@ -13,12 +13,6 @@ use super::reader::PluginReader;
 use crate::SceneError;
 use crate::material::RelativeDispersion;
 use crate::xml::{nearest, parse_list};
-
-/// The yellow line of helium, for which catalogues state indices, in nm.
-const D_LINE: f32 = 587.5618;
-
-/// The wavelengths for which an index must be usable: those that are seen, in nm.
-const SEEN: core::ops::RangeInclusive<u16> = 360..=830;
 
 /// The relative index of an interface, and how it depends on the wavelength where it does: `int_ior` with its Abbe number
 /// `abbe`, or `glass`, `cauchy` or `sellmeier`, and `ext_ior`.
@@ -34,13 +28,10 @@ pub(super) fn interface(
     };
     let exterior = ior::index(reader, "ext_ior", "air")?;
     let relative = RelativeDispersion { interior, exterior };
-    let index = |nm: f32| {
-        Ior::new(relative.index(nm)).map_err(|error| {
-            reader.error(name, format!("the relative index at {nm} nm: ") + &error.to_string())
-        })
-    };
-    SEEN.step_by(5).try_for_each(|nm| index(f32::from(nm)).map(drop))?;
-    Ok((index(D_LINE)?, Some(Box::new(relative))))
+    let index = relative.checked().map_err(|(nm, error)| {
+        reader.error(name, format!("the relative index at {nm} nm: {error}"))
+    })?;
+    Ok((index, Some(Box::new(relative))))
 }
 
 /// The dispersion that is given, and the parameter that gives it.

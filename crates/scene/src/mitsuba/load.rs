@@ -6,7 +6,7 @@ use alloc::vec::Vec;
 use std::path::{Path, PathBuf};
 
 use super::origins::Origins;
-use super::{Context, bare, scene};
+use super::{Context, bare, model, scene};
 use crate::film::Crop;
 use crate::scene::{Layer, SamplerKind, Scene};
 use crate::xml::{Leniency, parse_file};
@@ -31,7 +31,7 @@ pub struct LoadOptions {
     pub sampler: Option<SamplerKind>,
     /// Another seed.
     pub seed: Option<u64>,
-    /// What a bare mesh is made of, as `TYPE[:key=value,…]` with the names of scene files, such as
+    /// What a bare mesh or all of a model is made of, as `TYPE[:key=value,…]` with the names of scene files, such as
     /// `roughconductor:material=Au,alpha=0.2` or `diffuse:reflectance=0.8 0.2 0.1`.
     pub bsdf: Option<String>,
 }
@@ -51,7 +51,9 @@ pub struct LoadedScene {
     pub origins: Origins,
 }
 
-/// Loads a scene file (`.xml`) or a bare mesh (`.obj`, `.ply`).
+/// Loads a scene file (`.xml`), a model (`.gltf`, `.glb`) or a bare mesh (`.obj`, `.ply`).
+///
+/// A model without lights and surfaces that shine, or without a camera, has those of a bare mesh.
 ///
 /// A bare mesh stands in white light of radiance 1 from everywhere, unless it emits light itself, seen from its front, right
 /// and above by a camera that holds all of it; y is up. It is made of [`LoadOptions::bsdf`], of the materials of its MTL file,
@@ -87,11 +89,12 @@ pub fn load_scene(path: &Path, options: &LoadOptions) -> Result<LoadedScene, Sce
             let description = parse_file(path, &options.definitions, options.leniency)?;
             scene::scene(Context::new(&description, options))
         }
+        "gltf" | "glb" => model::scene(path, options),
         "obj" | "ply" => bare::mesh(path, options),
         _ => {
             let message = format!("a scene cannot be read from a file named “.{extension}”");
             Err(SceneError::scene(Location::file(path), message)
-                .help("scenes are .xml, bare meshes .obj or .ply"))
+                .help("scenes are .xml, .gltf or .glb, bare meshes .obj or .ply"))
         }
     }
 }

@@ -1,6 +1,6 @@
-//! Loading: from a scene file or a bare mesh to a [`Scene`](crate::Scene).
+//! Loading: from a scene file, a model or a bare mesh to a [`Scene`](crate::Scene).
 //!
-//! Scene files are Mitsuba's; [`crate::xml`] reads them into a description and this module gives it a
+//! Models are glTF, translated by `crate::gltf`. Scene files are Mitsuba's; [`crate::xml`] reads them into a description and this module gives it a
 //! meaning. Every plugin is one function that asks a reader for its parameters; parameters that
 //! nobody asks for are errors that list those that exist, or warnings when
 //! [lenient](crate::xml::Leniency::Lenient). Each family of plugins has one table of names and functions, from
@@ -24,6 +24,7 @@ mod integrator;
 mod ior;
 mod load;
 mod medium;
+mod model;
 mod mtl;
 mod origins;
 mod reader;

@@ -38,9 +38,13 @@ impl Origins {
 
     /// Notes the node that describes an element; the first counts.
     pub(super) fn note(&mut self, element: Element, node: &Node) {
-        self.places.entry(element).or_insert_with(|| Origin {
-            element: format!("{} “{}”", node.kind.tag(), node.plugin),
-            location: node.location.clone(),
-        });
+        let tag = node.kind.tag();
+        let (element_name, location) = (format!("{tag} “{}”", node.plugin), node.location.clone());
+        self.note_place(element, Origin { element: element_name, location });
+    }
+
+    /// Notes where an element is described; the first counts.
+    pub(super) fn note_place(&mut self, element: Element, origin: Origin) {
+        self.places.entry(element).or_insert(origin);
     }
 }

@@ -387,7 +387,7 @@ fn the_bsdf_of_a_bare_mesh_can_be_chosen() {
 
 #[test]
 fn files_of_other_kinds_are_refused() {
-    let (_folder, path) = mesh_file("a.gltf", "{}");
+    let (_folder, path) = mesh_file("a.fbx", "{}");
     let error = load_scene(&path, &LoadOptions::default()).expect_err("no scene").to_string();
     assert!(error.contains("bare meshes .obj or .ply"), "{error}");
 }

@@ -59,7 +59,8 @@ impl Wrap {
 pub struct Bitmap {
     image: BitmapImage,
     filter: Filter,
-    wrap: Wrap,
+    /// Beyond columns and beyond rows.
+    wrap: [Wrap; 2],
     uv: UvTransform,
     /// Of a filter that needs one.
     pyramid: Option<Pyramid>,
@@ -69,7 +70,13 @@ impl Bitmap {
     /// A texture from an image and how it is to be looked up.
     pub fn new(image: BitmapImage, filter: Filter, wrap: Wrap, uv: UvTransform) -> Self {
         let pyramid = (filter == Filter::Trilinear).then(|| Pyramid::new(&image));
-        Self { image, filter, wrap, uv, pyramid }
+        Self { image, filter, wrap: [wrap; 2], uv, pyramid }
+    }
+
+    /// The same with other borders, of its own left and right, and above and below.
+    #[must_use]
+    pub fn with_wraps(self, wrap: [Wrap; 2]) -> Self {
+        Self { wrap, ..self }
     }
 
     /// The image.
@@ -92,10 +99,10 @@ impl Bitmap {
         match self.filter {
             Filter::Nearest => {
                 let (column, row) = (Real::floor(x) as i32, Real::floor(y) as i32);
-                self.image.wrapped(column, row, [self.wrap; 2])
+                self.image.wrapped(column, row, self.wrap)
             }
             Filter::Bilinear | Filter::Trilinear => {
-                self.image.bilinear([x - 0.5, y - 0.5], [self.wrap; 2])
+                self.image.bilinear([x - 0.5, y - 0.5], self.wrap)
             }
         }
     }
@@ -144,7 +151,7 @@ impl Bitmap {
         let [u, v] = self.uv.apply(uv);
         let size = [self.image.width() as f32, self.image.height() as f32];
         let at = [u * size[0] - 0.5, v * size[1] - 0.5];
-        let [x, y] = self.image.bilinear_gradient(at, [self.wrap; 2]);
+        let [x, y] = self.image.bilinear_gradient(at, self.wrap);
         self.uv.pull_back([x.luminance() * size[0], y.luminance() * size[1]])
     }
 }
@@ -194,6 +201,15 @@ mod tests {
                 );
             }
         }
+    }
+
+    #[test]
+    fn borders_may_differ_between_the_axes() {
+        let bitmap = bitmap(Filter::Nearest, Wrap::Repeat, UvTransform::IDENTITY);
+        let bitmap = bitmap.expect("six texels").with_wraps([Wrap::Clamp, Wrap::Mirror]);
+        // One texel right of the last column, in the row below the last one and its image.
+        assert_eq!(bitmap.color([1.25, 1.1]).r, 0.2);
+        assert_eq!(bitmap.color([-0.25, 1.4]).r, 0.9);
     }
 
     #[test]

@@ -9,7 +9,9 @@ mod bitmap;
 mod checkerboard;
 mod image;
 mod point;
+mod product;
 mod pyramid;
+mod threshold;
 mod uv_transform;
 mod volume;
 
@@ -25,6 +27,8 @@ pub use checkerboard::Checkerboard;
 pub(crate) use image::split;
 pub use image::{BitmapError, BitmapImage};
 pub use point::TexturePoint;
+pub use product::Product;
+pub use threshold::Threshold;
 pub use uv_transform::UvTransform;
 pub use volume::VolumeTexture;
 
@@ -48,15 +52,32 @@ pub enum Texture {
     Attribute(AttributeTexture),
     /// What fills space.
     Volume(VolumeTexture),
+    /// Two textures multiplied.
+    Product(Product),
+    /// Where a texture reaches a limit.
+    Threshold(Threshold),
 }
 
 impl Texture {
+    /// The textures that it is made of.
+    fn parts(&self) -> impl Iterator<Item = TextureId> + use<> {
+        let parts = match *self {
+            Self::Checkerboard(Checkerboard { color0, color1, .. }) => [Some(color0), Some(color1)],
+            Self::Product(Product { factors: [a, b] }) => [Some(a), Some(b)],
+            Self::Threshold(Threshold { texture, .. }) => [Some(texture), None],
+            _ => [None; 2],
+        };
+        parts.into_iter().flatten()
+    }
+
     /// Whether it is looked up at the surface itself and not at texture coordinates alone.
     pub(crate) fn needs_surface(&self) -> bool {
         match self {
             Self::Attribute(_) | Self::Volume(_) => true,
             Self::Bitmap(bitmap) => bitmap.is_filtered(),
-            Self::Constant(_) | Self::Checkerboard(_) => false,
+            Self::Constant(_) | Self::Checkerboard(_) | Self::Product(_) | Self::Threshold(_) => {
+                false
+            }
         }
     }
 }
@@ -115,6 +136,20 @@ impl Textures {
             Texture::Volume(texture) => {
                 let (mean, max) = (texture.volume.mean(), texture.volume.max());
                 (Texture::Volume(texture), mean, max)
+            }
+            Texture::Product(product) => {
+                let times = |a: Color, b: Color| a.zip(b, |a, b| (a * b).min(f32::MAX));
+                let [a, b] = product.factors;
+                let mean = times(self.mean(a), self.mean(b));
+                (Texture::Product(product), mean, times(self.max(a), self.max(b)))
+            }
+            Texture::Threshold(threshold) => {
+                let Threshold { texture, limit } = threshold;
+                // Luminances may round to less than the largest channel; a bound may not.
+                let reaches = self.max(texture).max_channel() >= limit;
+                let max = Color::splat(f32::from(reaches));
+                let mean = self.mean(texture).map(|mean| mean.min(max.r));
+                (Texture::Threshold(threshold), mean, max)
             }
         };
         self.entries.push(Entry { texture, mean, max, curve: None });
@@ -219,6 +254,17 @@ impl Textures {
             }
             Texture::Attribute(attribute) => attribute.color(at),
             Texture::Volume(texture) => texture.color(at),
+            Texture::Product(Product { factors: [a, b] }) => {
+                if *a < id && *b < id {
+                    self.color(*a, at).zip(self.color(*b, at), |a, b| (a * b).min(f32::MAX))
+                } else {
+                    Color::black()
+                }
+            }
+            Texture::Threshold(Threshold { texture, limit }) => {
+                let reaches = *texture < id && self.value(*texture, at) >= *limit;
+                Color::splat(f32::from(reaches))
+            }
         }
     }
 
@@ -255,10 +301,8 @@ impl Textures {
         let mut all = BTreeSet::new();
         let mut rest: Vec<TextureId> = ids.into_iter().collect();
         while let Some(id) = rest.pop() {
-            if all.insert(id)
-                && let Some(Texture::Checkerboard(board)) = self.get(id)
-            {
-                rest.extend([board.color0, board.color1]);
+            if all.insert(id) {
+                rest.extend(self.get(id).into_iter().flat_map(Texture::parts));
             }
         }
         all
@@ -360,5 +404,37 @@ mod tests {
         assert_eq!(textures.mean(id), Color::new(0.375, 0.5, 0.5));
         assert_eq!(textures.max(id), Color::new(0.5, 1.0, 1.0));
         assert!(!textures.is_constant(id) && textures.is_constant(color0));
+    }
+
+    #[test]
+    fn products_are_channel_by_channel_and_thresholds_see_the_product() {
+        let mut textures = Textures::default();
+        let [a, b] = [Color::new(0.5, 2.0, 0.0), Color::new(0.5, 0.25, 8.0)];
+        let factors = [a, b].map(|color| textures.constant(color));
+        let product = textures.add(Texture::Product(Product { factors }));
+        let expected = Color::new(0.25, 0.5, 0.0);
+        assert_eq!(textures.color(product, [0.0; 2]), expected);
+        assert_eq!((textures.mean(product), textures.max(product)), (expected, expected));
+        let luminance = expected.luminance();
+        for (limit, value) in [(luminance, 1.0), (luminance + 1e-3, 0.0)] {
+            let threshold = Threshold { texture: product, limit };
+            let id = textures.add(Texture::Threshold(threshold));
+            assert_eq!(textures.value(id, [0.3; 2]), value, "{limit}");
+            assert!(textures.max(id).r >= value);
+            assert!(textures.with_parts([id]).contains(&factors[1]));
+        }
+        let huge = textures.constant(Color::splat(f32::MAX));
+        let squared = textures.add(Texture::Product(Product { factors: [huge; 2] }));
+        assert_eq!(textures.value(squared, [0.0; 2]), f32::MAX);
+    }
+
+    #[test]
+    fn products_and_thresholds_of_themselves_are_black() {
+        let mut textures = Textures::default();
+        let own = textures.add(Texture::Product(Product { factors: [TextureId(0); 2] }));
+        let limit = Threshold { texture: TextureId(1), limit: 0.0 };
+        let threshold = textures.add(Texture::Threshold(limit));
+        assert_eq!(textures.color(own, [0.0; 2]), Color::black());
+        assert_eq!(textures.value(threshold, [0.0; 2]), 0.0);
     }
 }

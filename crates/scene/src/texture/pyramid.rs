@@ -38,12 +38,12 @@ impl Pyramid {
         original: &BitmapImage,
         [u, v]: [f32; 2],
         texels: f32,
-        wrap: Wrap,
+        wrap: [Wrap; 2],
     ) -> Color {
         let at = |level: usize| {
             let image = level.checked_sub(1).map_or(original, |i| &self.levels[i]);
             let place = [u * image.width() as f32 - 0.5, v * image.height() as f32 - 0.5];
-            image.bilinear(place, [wrap; 2])
+            image.bilinear(place, wrap)
         };
         // NaN is no maximum.
         let level = Real::ln(texels.max(1.0)) / core::f32::consts::LN_2;
@@ -85,7 +85,7 @@ mod tests {
         let image = BitmapImage::from_f32(8, 8, 1, &texels).expect("64 texels");
         let pyramid = Pyramid::new(&image);
         assert_eq!(pyramid.levels.len(), 3);
-        let at = |texels| pyramid.color(&image, [0.3125, 0.4375], texels, Wrap::Repeat).r;
+        let at = |texels| pyramid.color(&image, [0.3125, 0.4375], texels, [Wrap::Repeat; 2]).r;
         // The middle of a texel of the pattern; means of two by two of it are all the same.
         assert!(at(1.0) == 0.0 || at(1.0) == 1.0);
         assert_eq!(at(f32::NAN), at(0.5));

@@ -43,7 +43,7 @@ pub(super) fn reason(presence: &Presence, loaded: &LoadedScene) -> String {
         (Some(origin), _) => origin.to_string(),
         (None, Element::Material(_)) => "a material that the file does not describe".to_owned(),
         (None, Element::Texture(_)) => "an image that a mesh file names".to_owned(),
-        (None, Element::Light(_)) => "the light around a bare mesh".to_owned(),
+        (None, Element::Light(_)) => "the light around what has none".to_owned(),
         (None, Element::Medium(_)) => "a medium that the file does not describe".to_owned(),
         (None, Element::Instances) => "instances".to_owned(),
         (None, Element::Moving(_)) => "a shape that moves".to_owned(),
