@@ -300,6 +300,16 @@ impl Camera {
         self.projection
     }
 
+    /// From camera to world coordinates when the shutter opens.
+    pub fn to_world(&self) -> &Transform {
+        &self.to_world
+    }
+
+    /// The distances along the optical axis between which something is seen.
+    pub fn clip(&self) -> [f32; 2] {
+        [self.near, self.far]
+    }
+
     /// Where the camera stands when the shutter opens, in world coordinates.
     pub fn position(&self) -> Vec3 {
         self.to_world.point(Vec3::ZERO)

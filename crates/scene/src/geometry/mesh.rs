@@ -7,7 +7,7 @@ use etendue_math::{Frame, Vector3};
 
 use super::surface::LocalSurface;
 use super::triangle::{Corners, Facet};
-use super::{Aabb, AttributeOwner, MeshAttribute, ShapeSample, Transform};
+use super::{Aabb, AttributeOwner, MeshAttribute, ShapeSample, Transform, is_unit};
 use crate::Color;
 
 /// A triangle mesh whose indices and coordinates have been checked.
@@ -168,6 +168,11 @@ impl TriangleMesh {
         self
     }
 
+    /// Whether front and back are exchanged.
+    pub fn is_flipped(&self) -> bool {
+        self.flipped
+    }
+
     /// What the mesh knows of its surface beyond positions, normals and texture coordinates.
     pub fn attributes(&self) -> &[MeshAttribute] {
         &self.attributes
@@ -198,7 +203,8 @@ impl TriangleMesh {
     /// The mesh with positions moved by a transform and normals by its transposed inverse.
     ///
     /// The order of the vertices stays, so mirroring turns a mesh without normals inside out, as
-    /// it does in Mitsuba.
+    /// it does in Mitsuba. Normals become unit vectors; those that are, up to their rounding, stay what they are where nothing
+    /// is moved, so that a mesh that was written down is read as it was.
     ///
     /// # Errors
     /// A vertex that leaves the range of `f32`.
@@ -206,8 +212,11 @@ impl TriangleMesh {
         for p in &mut self.positions {
             *p = transform.point(*p);
         }
+        let stays = *transform == Transform::IDENTITY;
         for n in &mut self.normals {
-            *n = transform.normal(*n);
+            if !(stays && is_unit(*n)) {
+                *n = transform.normal(*n);
+            }
         }
         match self.positions.iter().position(|p| !p.is_finite()) {
             Some(vertex) => Err(MeshError::NotFinite { attribute: "position", vertex }),

@@ -51,4 +51,5 @@ pub use scene::{Geometry, GeometryStatistics, Hit};
 pub use shape::{Shape, ShapeError, ShapeId};
 pub use sphere::Sphere;
 pub use surface::SurfacePoint;
+pub(crate) use transform::is_unit;
 pub use transform::{Transform, TransformError};

@@ -1,0 +1,35 @@
+//! The integrator.
+
+use super::element::Element;
+use super::exporter::Exporter;
+use super::values::{boolean, integer};
+use crate::medium::Medium;
+use crate::scene::PathSettings;
+
+/// The integrator of a scene: of those that see media the one without heavy tails where colours of light are taken away
+/// differently.
+pub(super) fn element(exporter: &mut Exporter<'_>) -> Element {
+    let scene = exporter.scene;
+    let PathSettings {
+        max_depth,
+        roulette_depth,
+        hide_emitters,
+        // Left out before.
+        strict_normals: _,
+        volumes,
+        spectral: _,
+    } = scene.path;
+    let in_use = scene.media_in_use();
+    let mut media = in_use.iter().filter_map(|&id| scene.media.get(id));
+    let (kind, roulette) = match volumes {
+        false => ("path", roulette_depth),
+        // Theirs is the last number of edges at which no path is ended by chance.
+        true if media.any(Medium::is_coloured) => ("volpathmis", roulette_depth.saturating_sub(1)),
+        true => ("volpath", roulette_depth.saturating_sub(1)),
+    };
+    let depth = max_depth.map_or(-1, i64::from);
+    Element::plugin("integrator", kind)
+        .with(integer("max_depth", depth))
+        .with_all((roulette != 5).then(|| integer("rr_depth", roulette.max(1))))
+        .with_all(hide_emitters.then(|| boolean("hide_emitters", true)))
+}
