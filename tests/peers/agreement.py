@@ -52,7 +52,7 @@ def render_mitsuba(path, definitions, runs, factor):
     return numpy.stack([numpy.array(picture, dtype=float)[:, :, :3] for picture in pictures]), spp
 
 
-def render_etendue(binary, path, definitions, runs, spp):
+def render_etendue(binary, path, definitions, runs, spp, arguments=()):
     import mitsuba
 
     pictures = []
@@ -60,6 +60,7 @@ def render_etendue(binary, path, definitions, runs, spp):
         output = os.path.join(folder, "picture.exr")
         for seed in range(runs):
             command = [binary, "render", path, "-o", output, "--quiet", "--spp", str(spp), "--seed", str(seed)]
+            command += arguments
             command += [word for name, value in definitions.items() for word in ("-D", f"{name}={value}")]
             result = subprocess.run(command, capture_output=True, text=True)
             if result.returncode != 0:

@@ -82,9 +82,7 @@ impl fmt::Display for Loss {
             }
             Self::BoxFilter => "the radius of the box filter is lost: it is half a pixel",
             Self::Seed => "the sampler's seed is lost: it has more than 32 bits",
-            Self::StretchedCamera => {
-                "the camera's stretching is lost: it sees as much in height as in width"
-            }
+            Self::StretchedCamera => "the camera's uneven stretching or shearing is lost",
             Self::SecondBackground => "of several lights around the scene only the first is there",
         };
         f.write_str(text)

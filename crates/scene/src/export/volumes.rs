@@ -66,7 +66,7 @@ pub(super) fn plugin(exporter: &mut Exporter<'_>, volume: &Volume, unit: f32) ->
 }
 
 /// A grid as Mitsuba's volume file, in the unit cube; [`parse_volume`](crate::load::parse_volume) says how.
-fn vol(grid: &VolumeGrid) -> Vec<u8> {
+pub(super) fn vol(grid: &VolumeGrid) -> Vec<u8> {
     let size = grid.size();
     let channels = if grid.has_colours() { 3 } else { 1 };
     let mut bytes = Vec::from(*b"VOL\x03");
