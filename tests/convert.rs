@@ -93,6 +93,7 @@ fn shipped_scenes_show_the_same_bits_or_say_what_they_lose() {
     let lost = [
         ("dispersion.xml", Loss::Effect(Effect::Dispersion)),
         ("lambert-oren-nayar.xml", Loss::RoughDiffuse),
+        ("materials.xml", Loss::RoughDiffuse),
         ("motion-blur.xml", Loss::Effect(Effect::MotionBlur)),
         ("multiple-scattering.xml", Loss::Effect(Effect::MultipleScattering)),
         ("nested-dielectrics.xml", Loss::Effect(Effect::NestedDielectrics)),
