@@ -86,7 +86,7 @@ fn a_checkpoint_is_gone_on_from_and_that_of_another_experiment_refused() {
     let file = run(&folder, &["--checkpoint", "scene.xml"]);
     assert_eq!(
         (file.exit, file.errors()),
-        (Some(4), vec!["etendue: error: scene.xml: not a directory"])
+        (Some(4), vec!["etendue: error: scene.xml: not a directory".to_owned()])
     );
 }
 

@@ -103,7 +103,7 @@ fn a_bsdf_that_does_not_exist_is_an_error_that_names_those_that_do() {
     ] {
         let (folder, outcome) = run("mesh.obj", OBJ, &["--bsdf", bsdf]);
         assert_eq!(outcome.exit, Some(3), "{bsdf}: {}", outcome.stderr);
-        let [error] = outcome.errors()[..] else { panic!("one error: {}", outcome.stderr) };
+        let [error] = &outcome.errors()[..] else { panic!("one error: {}", outcome.stderr) };
         for fragment in fragments {
             assert!(error.contains(fragment), "{bsdf}: {fragment} in {error}");
         }

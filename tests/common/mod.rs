@@ -26,11 +26,25 @@ pub(crate) struct Outcome {
 }
 
 impl Outcome {
-    /// The lines of standard error that report an error. Those of the argument parser have no
-    /// program name in front.
-    pub(crate) fn errors(&self) -> Vec<&str> {
-        let is_error = |l: &&str| l.starts_with("etendue: error:") || l.starts_with("error:");
-        self.stderr.lines().filter(is_error).collect()
+    /// What standard error reports as errors, with the indented lines that belong to each. Those of the argument parser have
+    /// no program name in front.
+    pub(crate) fn errors(&self) -> Vec<String> {
+        let mut errors: Vec<String> = Vec::new();
+        let mut is_part = false;
+        for line in self.stderr.lines() {
+            if line.starts_with("etendue: error:") || line.starts_with("error:") {
+                errors.push(line.to_owned());
+                is_part = true;
+            } else if let (true, true, Some(error)) =
+                (is_part, line.starts_with(' '), errors.last_mut())
+            {
+                *error += "\n";
+                *error += line;
+            } else {
+                is_part = false;
+            }
+        }
+        errors
     }
 
     /// The lines of standard error that warn.

@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
-"""Does étendue render what Mitsuba 3 (scalar_rgb) renders? A statistical test over small scenes.
+"""Does étendue render what Mitsuba 3 renders? A statistical test over small scenes.
 
 usage: agreement.py [--etendue target/release/etendue] [--scenes tests/scenes] [--runs 16]
                     [--spp-factor 1] [--pictures FOLDER] [--markdown] [NAME ...]
 
 Each scene, in each variant its first comment lists (`variants: name=value …`, passed as -D name=value), is
 rendered by both, `--runs` times with as many seeds, with the samples per pixel that the file states, times
-`--spp-factor`. Then
+`--spp-factor`; by Mitsuba's `scalar_rgb`, or by what the comment names (`mitsuba: scalar_spectral`), in which case we
+carry wavelengths, too. What Mitsuba 3 does not have (`mitsuba: a plugin of version 0.6`) is only rendered. Then
 * per pixel and channel: Welch's t-test of the two means, p-values Šidák-corrected to 1 % for the whole picture;
   at least 99.75 % of the values must be accepted. Variances have the floor that Mitsuba's own test_renders.py
   gives them: 1e-4 per sample, so that a last bit does not count as a difference in a constant area.
@@ -43,9 +44,18 @@ def variants(path):
     return [dict(item.split("=", 1) for item in line.split()) for line in lines] or [{}]
 
 
+def peer(path):
+    """What the first comment says about Mitsuba: a variant of it, or why it has no such plugin."""
+    with open(path, encoding="utf-8") as file:
+        comment = re.match(r"<!--(.*?)-->", file.read(), re.DOTALL)
+    found = re.search(r"mitsuba: (.*?)\s*$", comment.group(1), re.MULTILINE) if comment else None
+    return found.group(1) if found else "scalar_rgb"
+
+
 def render_mitsuba(path, definitions, runs, factor):
     import mitsuba
 
+    mitsuba.set_variant(peer(path))
     scene = mitsuba.load_file(path, **definitions)
     spp = scene.sensors()[0].sampler().sample_count() * factor
     pictures = [mitsuba.render(scene, spp=spp, seed=seed) for seed in range(runs)]
@@ -140,8 +150,13 @@ def main():
         for definitions in variants(path):
             name = " ".join([file[:-4]] + [f"{key}={value}" for key, value in definitions.items()])
             try:
+                if " " in peer(path):
+                    render_etendue(options.etendue, path, definitions, 1, 1)
+                    print(row.format(name, peer(path), *[""] * 3).rstrip(), flush=True)
+                    continue
                 theirs, spp = render_mitsuba(path, definitions, options.runs, options.spp_factor)
-                ours = render_etendue(options.etendue, path, definitions, options.runs, spp)
+                mode = ["--spectral"] if peer(path).endswith("spectral") else []
+                ours = render_etendue(options.etendue, path, definitions, options.runs, spp, mode)
                 if ours.shape != theirs.shape:
                     raise RuntimeError(f"sizes differ: {ours.shape[2:0:-1]} and {theirs.shape[2:0:-1]}")
             except RuntimeError as error:

@@ -26,7 +26,8 @@ import agreement
 def files_under(folders):
     for folder in folders:
         for where, _, names in sorted(os.walk(folder)):
-            yield from (os.path.join(where, name) for name in sorted(names) if name.endswith(".xml"))
+            if os.path.basename(where) != "include":  # parts of others
+                yield from (os.path.join(where, name) for name in sorted(names) if name.endswith(".xml"))
 
 
 def convert(binary, path, definitions, output):

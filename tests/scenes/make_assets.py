@@ -129,6 +129,23 @@ def ply(path, is_binary):
             file.write(struct.pack("<Biii", 3, *triangle) if is_binary else text.encode())
 
 
+def serialized(path):
+    """Version 4, two meshes: a triangle, and the torus with normals and coordinates."""
+    vertices, faces = torus()
+    triangles = [(f[0], f[a], f[a + 1]) for f in faces for a in (1, 2)]
+    corners = [((0, 0, 0), (0, 0, 1), (0, 0)), ((1, 0, 0), (0, 0, 1), (1, 0)), ((0, 1, 0), (0, 0, 1), (0, 1))]
+    offsets = []
+    with open(path, "wb") as file:
+        for name, (vertices, triangles) in [(b"triangle", (corners, [(0, 1, 2)])), (b"torus", (vertices, triangles))]:
+            offsets.append(file.tell())
+            stream = struct.pack("<I", 0x1003) + name + b"\0" + struct.pack("<QQ", len(vertices), len(triangles))
+            for part in range(3):
+                stream += b"".join(struct.pack("<%df" % len(v[part]), *v[part]) for v in vertices)
+            stream += b"".join(struct.pack("<3I", *t) for t in triangles)
+            file.write(struct.pack("<HH", 0x041C, 4) + zlib.compress(stream, 9))
+        file.write(struct.pack("<%dQI" % len(offsets), *offsets, len(offsets)))
+
+
 def vol(path, size, channels, value):
     """Mitsuba's volume format; `value(x, y, z)` gives one float per channel, for cells in a box of 2 × 1 × 1."""
     nx, ny, nz = size
@@ -193,6 +210,7 @@ def main():
     vol(path("grey.vol"), (6, 4, 5), 1, lambda x, y, z: (smoke(x, y, z) * (x + y > 2),))
     vol(path("rgb.vol"), (4, 3, 5), 3, lambda x, y, z: [0.9 * smoke(*p) for p in ((x, y, z), (y, z, x), (z, x, y))])
     octahedron(path("octahedron.ply"))
+    serialized(path("two.serialized"))
     with open(path("leaf.spd"), "w") as file:
         file.write("# wavelength in nm, reflectance\n400 0.05\n500 0.1\n550 0.35\n600 0.15\n680 0.05\n720 0.5\n")
 

@@ -7,6 +7,8 @@ use std::process::ExitCode;
 use etendue_renderer::RendererError;
 use etendue_scene::{ErrorKind, SceneError};
 
+use crate::excerpt::Excerpt;
+
 /// The exit codes of every étendue command.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u8)]
@@ -80,6 +82,15 @@ impl From<SceneError> for Failure {
             ErrorKind::Resource => Exit::Resource,
             ErrorKind::Options => Exit::Usage,
         };
-        Self::new(exit, error.to_string())
+        // The place first, as compilers write it, then the line, then how to mend it.
+        let SceneError { location, help, .. } = &error;
+        let mut message = SceneError { help: None, ..error.clone() }.to_string();
+        if let Some(excerpt) = Excerpt::at(location) {
+            message += &format!("\n{excerpt}");
+        }
+        if let Some(help) = help {
+            message += &format!("\n  help: {help}");
+        }
+        Self::new(exit, message)
     }
 }

@@ -14,6 +14,7 @@ use std::process::ExitCode;
 use clap::{Parser, Subcommand};
 
 mod commands;
+mod excerpt;
 mod failure;
 mod figures;
 mod interrupt;

@@ -357,6 +357,20 @@ pub(crate) fn at_most_all_together<C: Spectrum>(
     each_within(parameter, a.value() + b.value(), [0.0, 1.0], "at most 1").map(|_| ())
 }
 
+/// Two shares of the same light, both made smaller by one factor where they exceed it together in a channel: for values
+/// read from textures.
+pub(crate) fn scaled_to_all_together<C: Spectrum>(
+    a: Reflectance<C>,
+    b: Reflectance<C>,
+) -> [Reflectance<C>; 2] {
+    let most = (a.value() + b.value()).max_channel();
+    if most > C::Real::ONE {
+        [a, b].map(|share| Reflectance::clamped(share.value().map(|c| c / most)))
+    } else {
+        [a, b]
+    }
+}
+
 /// Opacity, the share of light that meets the surface at all. Domain `[0, 1]`.
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
 pub struct Opacity<T>(T);

@@ -3,9 +3,9 @@
 use etendue_sampling::{Independent, Sampler, Sobol};
 use etendue_scene::Scene;
 use etendue_scene::color::{Primaries, Wavelengths};
-use etendue_scene::scene::SamplerKind;
+use etendue_scene::scene::{SamplerKind, Shows};
 
-use crate::path::{Surfaces, Transport, Volumes};
+use crate::path::{Distances, Surfaces, Transport, Volumes};
 use crate::render::Renderer;
 use crate::settings::RenderSettings;
 
@@ -21,12 +21,16 @@ pub enum Configuration {
     Volumes,
     /// All of that, a few wavelengths at a time instead of three primaries.
     Spectral,
+    /// No light: how far away things are.
+    Distances,
 }
 
 impl Configuration {
     /// What a scene needs.
     pub(crate) fn of(scene: &Scene, settings: &RenderSettings) -> Self {
-        if settings.path.spectral || scene.has_dispersion() {
+        if settings.path.shows == Shows::Distance {
+            Self::Distances
+        } else if settings.path.spectral || scene.has_dispersion() {
             Self::Spectral
         } else if settings.path.volumes && scene.has_volumes() || scene.materials.nest() {
             Self::Volumes
@@ -52,7 +56,7 @@ impl Configuration {
     /// Whether the program was compiled with it: the features `volumes` and `spectral` of this crate.
     pub fn is_compiled(self) -> bool {
         match self {
-            Self::Surfaces => true,
+            Self::Surfaces | Self::Distances => true,
             Self::Volumes => cfg!(feature = "volumes"),
             Self::Spectral => cfg!(feature = "spectral"),
         }
@@ -64,6 +68,7 @@ impl Configuration {
             Self::Surfaces => "surfaces",
             Self::Volumes => "volumes",
             Self::Spectral => "spectral",
+            Self::Distances => "distances",
         }
     }
 }
@@ -94,6 +99,7 @@ impl Renderer<'_> {
             Configuration::Spectral if cfg!(feature = "spectral") => {
                 work.run::<S, Volumes<Wavelengths>>()
             }
+            Configuration::Distances => work.run::<S, Distances>(),
             _ => work.run::<S, Surfaces>(),
         }
     }

@@ -9,6 +9,7 @@ use etendue_math::Spectrum;
 use crate::Scene;
 use crate::light::Light;
 use crate::material::{Material, MaterialId};
+use crate::scene::Shows;
 
 /// Something that makes a picture other than its author expects.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -51,6 +52,7 @@ impl Scene {
         let mut found = Vec::new();
         let emits = |light: &Light| match light {
             Light::Area(area) => !self.textures.max(area.radiance).is_black(),
+            Light::Beam(beam) => !self.textures.max(beam.exitance).is_black(),
             Light::Point(light) => !light.intensity.is_black(),
             Light::Spot(light) => light.power(&self.textures) > 0.0,
             Light::Projector(light) => light.power(&self.textures) > 0.0,
@@ -60,7 +62,9 @@ impl Scene {
         };
         let shortest =
             if self.path.hide_emitters || self.lights.iter().all(Light::is_delta) { 2 } else { 1 };
-        if !self.lights.iter().any(emits) {
+        if self.path.shows == Shows::Distance {
+            // Light does not matter.
+        } else if !self.lights.iter().any(emits) {
             found.push(Diagnosis::NoLight);
         } else if self.path.max_depth.is_some_and(|depth| depth < shortest) {
             found.push(Diagnosis::NoPath);
@@ -68,7 +72,10 @@ impl Scene {
         if self.surfaces.is_empty() {
             found.push(Diagnosis::NoShape);
         }
-        if !self.lights.is_empty() && self.lights.iter().all(Light::is_delta) {
+        if self.path.shows == Shows::Light
+            && !self.lights.is_empty()
+            && self.lights.iter().all(Light::is_delta)
+        {
             let mut specular = self.surfaces.iter().filter(|s| self.is_specular(s.material));
             if let Some(first) = specular.next() {
                 found.push(Diagnosis::SpecularUnderDeltaLights {

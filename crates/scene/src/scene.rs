@@ -20,7 +20,7 @@ use crate::medium::{Boundary, Media, MediumId};
 use crate::texture::Textures;
 
 pub use check::InvalidScene;
-pub use settings::{PathSettings, SamplerKind, SamplingSettings};
+pub use settings::{Layer, PathSettings, SamplerKind, SamplingSettings, Shows};
 
 /// What belongs to a shape besides its form.
 #[derive(Clone, Debug, PartialEq)]

@@ -45,6 +45,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Exit, Failure> {
             env!("CARGO_PKG_VERSION"),
             lossy(input.file_name())
         ),
+        layers: loaded.layers,
     };
     let Export { xml, files, losses } =
         export(loaded.scene, &options).map_err(|error| Failure::write(output, error))?;

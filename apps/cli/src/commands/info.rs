@@ -75,6 +75,8 @@ fn material_name(material: &Material) -> &'static str {
     match material {
         Material::Diffuse { .. } => "diffuse",
         Material::RoughDiffuse { .. } => "rough diffuse",
+        Material::DiffuseTransmitter { .. } => "diffuse transmitter",
+        Material::Phong { .. } => "phong",
         Material::Dielectric { roughness: None, .. } => "dielectric",
         Material::Dielectric { .. } => "rough dielectric",
         Material::ThinDielectric { .. } => "thin dielectric",
@@ -96,6 +98,7 @@ fn material_name(material: &Material) -> &'static str {
 fn light_name(light: &Light) -> &'static str {
     match light {
         Light::Area(_) => "area",
+        Light::Beam(_) => "directional area",
         Light::Point(_) => "point",
         Light::Spot(_) => "spot",
         Light::Projector(_) => "projector",

@@ -137,13 +137,21 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     let start = Instant::now();
     let mut loaded = load(&arguments.scene.scene, &arguments.load_options())?;
     loaded.scene.path.spectral |= arguments.spectral;
+    let mut layers = arguments.aov.clone();
+    if output.check_layers().is_ok() {
+        layers.extend(loaded.layers.into_iter().map(Aov::from));
+    } else if !loaded.layers.is_empty() {
+        eprintln!("etendue: warning: only EXR pictures have the layers that the scene asks for");
+    }
+    layers.sort_unstable();
+    layers.dedup();
     let scene = arguments.selection.select(loaded.scene);
     let build_seconds = start.elapsed().as_secs_f64();
     for diagnosis in scene.diagnose() {
         eprintln!("etendue: warning: {diagnosis}");
     }
 
-    let task = Task::new(arguments, &scene)?;
+    let task = Task::new(arguments, layers, &scene)?;
     let start = Instant::now();
     let drawing = draw(&task, &scene, &interrupt)?;
     let render_seconds = start.elapsed().as_secs_f64();

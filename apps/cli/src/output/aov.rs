@@ -1,6 +1,7 @@
 //! Layers beside the picture ("arbitrary output variables").
 
 use etendue_renderer::{Features, Image};
+use etendue_scene::scene::Layer;
 
 /// What is known of pixels beside their colour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, clap::ValueEnum)]
@@ -21,6 +22,19 @@ pub(crate) enum Aov {
     Uv,
     /// The number of its shape, from 1; 0 where nothing is hit
     Shape,
+}
+
+impl From<Layer> for Aov {
+    fn from(layer: Layer) -> Self {
+        match layer {
+            Layer::Albedo => Self::Albedo,
+            Layer::Normal => Self::Normal,
+            Layer::Depth => Self::Depth,
+            Layer::Position => Self::Position,
+            Layer::Uv => Self::Uv,
+            Layer::Shape => Self::Shape,
+        }
+    }
 }
 
 impl Aov {

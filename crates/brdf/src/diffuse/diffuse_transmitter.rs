@@ -4,7 +4,7 @@ use etendue_math::{Real, Spectrum, Vector3};
 use etendue_sampling::warp::cosine_hemisphere;
 
 use crate::bsdf::above;
-use crate::param::at_most_all_together;
+use crate::param::{at_most_all_together, scaled_to_all_together};
 use crate::registry::{Albedo, Energy, ModelInfo, Reciprocity, parameter};
 use crate::{Bsdf, BsdfReal, BsdfVec, Density, Lobes, ParameterError, Reflectance, Sample};
 
@@ -53,10 +53,22 @@ impl<C: Spectrum> DiffuseTransmitter<C> {
         transmittance: Reflectance<C>,
     ) -> Result<Self, ParameterError> {
         at_most_all_together("reflectance + transmittance", reflectance, transmittance)?;
-        let (reflectance, transmittance) = (reflectance.value(), transmittance.value());
-        let (r, t) = (reflectance.mean(), transmittance.mean());
+        Ok(Self::of_shares([reflectance, transmittance]))
+    }
+
+    /// The same with ρr and ρt made smaller by one factor where they exceed 1 together in a channel: for values read from
+    /// textures.
+    #[inline]
+    pub fn clamped(reflectance: Reflectance<C>, transmittance: Reflectance<C>) -> Self {
+        Self::of_shares(scaled_to_all_together(reflectance, transmittance))
+    }
+
+    #[inline]
+    fn of_shares(shares: [Reflectance<C>; 2]) -> Self {
+        let colour = shares.map(Reflectance::value);
+        let [r, t] = colour.map(Spectrum::mean);
         let share = |x| if r + t > C::Real::ZERO { x / (r + t) } else { C::Real::ZERO };
-        Ok(Self { colour: [reflectance, transmittance], probability: [share(r), share(t)] })
+        Self { colour, probability: [share(r), share(t)] }
     }
 }
 
@@ -179,6 +191,15 @@ mod tests {
         let pink = Reflectance::new(Rgb::new(0.2_f32, 0.1, 0.1)).unwrap();
         let error = DiffuseTransmitter::new(red, pink).unwrap_err();
         assert_eq!(error.parameter, "reflectance + transmittance");
+    }
+
+    #[test]
+    fn shares_that_exceed_the_light_can_be_scaled() {
+        let [r, t] = [0.9_f64, 0.6].map(|x| Reflectance::new(x).unwrap());
+        let sheet = DiffuseTransmitter::clamped(r, t);
+        // One rounding of each share.
+        assert!((sheet.albedo(DVec3::Z).unwrap() - 1.0).abs() < 1e-15);
+        assert!((sheet.colour[0] / sheet.colour[1] - 1.5).abs() < 1e-15);
     }
 
     #[test]

@@ -7,7 +7,7 @@ use etendue_sampling::warp::{cosine_hemisphere, turn};
 use crate::bsdf::{above, both_above};
 use crate::direction::reflect;
 use crate::mixture::mixture_sample;
-use crate::param::at_most_all_together;
+use crate::param::{at_most_all_together, scaled_to_all_together};
 use crate::registry::{Albedo, Energy, ModelInfo, Reciprocity, parameter};
 use crate::{Bsdf, BsdfReal, BsdfVec, Exponent, Lobes, ParameterError, Reflectance, Sample};
 
@@ -67,10 +67,26 @@ impl<C: Spectrum> Phong<C> {
         exponent: Exponent<C::Real>,
     ) -> Result<Self, ParameterError> {
         at_most_all_together("kd + ks", diffuse, specular)?;
-        let (diffuse, specular, exponent) = (diffuse.value(), specular.value(), exponent.value());
+        Ok(Self::of_shares([diffuse, specular], exponent))
+    }
+
+    /// The same with kd and ks made smaller by one factor where they exceed 1 together in a channel: for values read from
+    /// textures.
+    #[inline]
+    pub fn clamped(
+        diffuse: Reflectance<C>,
+        specular: Reflectance<C>,
+        exponent: Exponent<C::Real>,
+    ) -> Self {
+        Self::of_shares(scaled_to_all_together(diffuse, specular), exponent)
+    }
+
+    #[inline]
+    fn of_shares(shares: [Reflectance<C>; 2], exponent: Exponent<C::Real>) -> Self {
+        let ([diffuse, specular], exponent) = (shares.map(Reflectance::value), exponent.value());
         let (d, s) = (diffuse.mean(), specular.mean());
         let share = |x| if d + s > C::Real::ZERO { x / (d + s) } else { C::Real::ZERO };
-        Ok(Self { diffuse, specular, exponent, probability: [share(d), share(s)] })
+        Self { diffuse, specular, exponent, probability: [share(d), share(s)] }
     }
 
     /// `cos^(n/2) α`: half the power, because the whole may underflow where the product with n does not.
@@ -244,6 +260,18 @@ mod tests {
     fn shares_beyond_the_light_are_refused() {
         let [kd, ks] = [0.6, 0.5].map(|k| Reflectance::new(k).unwrap());
         assert!(Phong::new(kd, ks, Exponent::new(1.0).unwrap()).is_err());
+    }
+
+    #[test]
+    fn shares_beyond_the_light_can_be_scaled() {
+        let [kd, ks] = [0.9_f64, 0.6].map(|k| Reflectance::new(k).unwrap());
+        let exponent = Exponent::new(4.0).unwrap();
+        let model = Phong::clamped(kd, ks, exponent);
+        // One rounding of each share.
+        assert!((model.albedo(DVec3::Z).unwrap() - 1.0).abs() < 1e-15);
+        assert!((model.diffuse / model.specular - 1.5).abs() < 1e-15);
+        let [kd, ks] = [0.3_f64, 0.6].map(|k| Reflectance::new(k).unwrap());
+        assert_eq!(Phong::clamped(kd, ks, exponent), Phong::new(kd, ks, exponent).unwrap());
     }
 
     #[test]

@@ -2,6 +2,7 @@
 
 mod direct_light;
 mod dispersion;
+mod distances;
 mod first_hit;
 mod found_light;
 mod scatter;
@@ -24,6 +25,7 @@ use crate::light_sampler::{LightSampler, PointLights, Receiver, Sides};
 use crate::settings::Strategy;
 use crate::statistics::RayCounts;
 
+pub(crate) use distances::Distances;
 pub(crate) use first_hit::FirstHit;
 pub(crate) use transport::{Carried, Prepared, Surfaces, Transport, Volumes};
 

@@ -9,7 +9,7 @@ use crate::texture::{Texture, TextureId};
 /// The effect of a light.
 pub(super) fn of_light(light: &Light) -> Effect {
     match light {
-        Light::Area(_) => Effect::AreaLight,
+        Light::Area(_) | Light::Beam(_) => Effect::AreaLight,
         Light::Point(_) => Effect::PointLight,
         Light::Spot(_) => Effect::SpotLight,
         Light::Projector(_) => Effect::Projector,
@@ -52,6 +52,8 @@ pub(super) fn of_lobes(material: &mut Material) -> impl Iterator<Item = (Effect,
             PlasticSurface::Smooth(_) => (DELTA, Some(specular_reflectance), None),
             PlasticSurface::Rough(_) => (ROUGH, Some(specular_reflectance), None),
         },
+        Material::DiffuseTransmitter { transmittance, .. } => (ROUGH, None, Some(transmittance)),
+        Material::Phong { specular_reflectance, .. } => (ROUGH, Some(specular_reflectance), None),
         Material::Principled(textures) => (ROUGH, None, textures.spec_trans.as_mut()),
         Material::PrincipledThin(textures) => (ROUGH, None, textures.spec_trans.as_mut()),
         Material::Diffuse { .. }

@@ -124,7 +124,11 @@ fn changed(
     }
     let has_base = matches!(
         material,
-        Material::Plastic { .. } | Material::Principled(_) | Material::PrincipledThin(_)
+        Material::DiffuseTransmitter { .. }
+            | Material::Phong { .. }
+            | Material::Plastic { .. }
+            | Material::Principled(_)
+            | Material::PrincipledThin(_)
     );
     match left_out {
         0 => is_simpler.then_some(changed),

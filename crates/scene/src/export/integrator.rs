@@ -1,10 +1,14 @@
 //! The integrator.
 
+use alloc::format;
+use alloc::string::String;
+use alloc::vec::Vec;
+
 use super::element::Element;
 use super::exporter::Exporter;
-use super::values::{boolean, integer};
+use super::values::{boolean, integer, string};
 use crate::medium::Medium;
-use crate::scene::PathSettings;
+use crate::scene::{Layer, PathSettings, Shows};
 
 /// The integrator of a scene: of those that see media the one without heavy tails where colours of light are taken away
 /// differently.
@@ -18,7 +22,11 @@ pub(super) fn element(exporter: &mut Exporter<'_>) -> Element {
         strict_normals: _,
         volumes,
         spectral: _,
+        shows,
     } = scene.path;
+    if shows == Shows::Distance {
+        return Element::plugin("integrator", "depth");
+    }
     let in_use = scene.media_in_use();
     let mut media = in_use.iter().filter_map(|&id| scene.media.get(id));
     let (kind, roulette) = match volumes {
@@ -32,4 +40,25 @@ pub(super) fn element(exporter: &mut Exporter<'_>) -> Element {
         .with(integer("max_depth", depth))
         .with_all((roulette != 5).then(|| integer("rr_depth", roulette.max(1))))
         .with_all(hide_emitters.then(|| boolean("hide_emitters", true)))
+}
+
+/// An integrator with layers beside its picture, each called after what it is.
+pub(super) fn with_layers(integrator: Element, layers: &[Layer]) -> Element {
+    let names: Vec<String> = layers.iter().map(|&layer| pair(layer)).collect();
+    if names.is_empty() {
+        return integrator;
+    }
+    Element::plugin("integrator", "aov").with(string("aovs", &names.join(","))).with(integrator)
+}
+
+fn pair(layer: Layer) -> String {
+    let kind = match layer {
+        Layer::Albedo => "albedo",
+        Layer::Normal => "sh_normal",
+        Layer::Depth => "depth",
+        Layer::Position => "position",
+        Layer::Uv => "uv",
+        Layer::Shape => "shape_index",
+    };
+    format!("{kind}:{kind}")
 }

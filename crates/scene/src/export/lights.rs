@@ -27,10 +27,10 @@ pub(super) fn elements(exporter: &mut Exporter<'_>) -> Result<Vec<Element>, Expo
     Ok(elements)
 }
 
-/// The emitter that a light is; nothing for a shape that shines.
+/// The emitter that a light is; nothing for a shape that emits.
 fn element(exporter: &mut Exporter<'_>, light: &Light) -> Result<Option<Element>, ExportError> {
     Ok(Some(match light {
-        Light::Area(_) => return Ok(None),
+        Light::Area(_) | Light::Beam(_) => return Ok(None),
         Light::Point(light) => plugin("point")
             .with(rgb("intensity", light.intensity))
             .with(vector("point", "position", light.position)),

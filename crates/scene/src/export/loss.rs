@@ -13,6 +13,10 @@ pub enum Loss {
     Effect(Effect),
     /// Oren and Nayar's reflection.
     RoughDiffuse,
+    /// A sheet that scatters to both sides.
+    DiffuseTransmitter,
+    /// Phong's lobe.
+    Phong,
     /// The exact form of a microfacet model.
     ExactFacets,
     /// The exact reflectance of plastic from inside.
@@ -74,6 +78,12 @@ impl fmt::Display for Loss {
             }
             Self::Effect(effect) => return write!(f, "“{}” is lost", effect.name()),
             Self::RoughDiffuse => "the roughness of “roughdiffuse” is lost: it is “diffuse”",
+            Self::DiffuseTransmitter => {
+                "“difftrans” is lost: it is “principledthin” that lets as much through"
+            }
+            Self::Phong => {
+                "the lobe of “phong” is lost: it is that of “roughconductor”, or none where colours vary"
+            }
             Self::ExactFacets => {
                 "“masking” and “smith_lambda” of facets are lost: they are “separable” and “walter”"
             }

@@ -7,6 +7,8 @@ use etendue_brdf::{
     PlasticInterface, TransmittanceTable,
 };
 
+use etendue_math::{Real, Spectrum};
+
 use super::Loss;
 use super::element::Element;
 use super::exporter::Exporter;
@@ -42,6 +44,12 @@ impl Exporter<'_> {
             Material::RoughDiffuse { reflectance, .. } => {
                 self.losses.insert(Loss::RoughDiffuse);
                 self.diffuse(*reflectance)
+            }
+            Material::DiffuseTransmitter { reflectance, transmittance } => {
+                ("principledthin", self.transmitter(*reflectance, *transmittance))
+            }
+            Material::Phong { diffuse_reflectance, specular_reflectance, exponent } => {
+                self.phong(*diffuse_reflectance, *specular_reflectance, *exponent)
             }
             Material::Dielectric {
                 eta,
@@ -134,6 +142,57 @@ impl Exporter<'_> {
 
     fn diffuse(&mut self, reflectance: TextureId) -> (&'static str, Element) {
         ("diffuse", plugin("diffuse").with(self.texture("reflectance", reflectance, Share)))
+    }
+
+    /// A sheet that lets light through, as Disney's without its specular lobes.
+    fn transmitter(&mut self, reflectance: TextureId, transmittance: TextureId) -> Element {
+        self.losses.insert(Loss::DiffuseTransmitter);
+        let textures = &self.scene.textures;
+        let (color, through) = if textures.is_black(reflectance) {
+            (self.texture("base_color", transmittance, Share), 2.0)
+        } else {
+            let [r, t] = [textures.mean(reflectance), textures.mean(transmittance)];
+            let both = r + t;
+            let share = t.luminance() / both.luminance();
+            (self.constant("base_color", both, None, Share), 2.0 * share.clamp(0.0, 1.0))
+        };
+        plugin("principledthin")
+            .with(color)
+            .with(float("roughness", 0.0_f32))
+            .with(float("diff_trans", through))
+    }
+
+    /// Phong's lobe as that of a metal whose facets have normals as far apart: α² = 2 / (n + 2).
+    ///
+    /// # Source
+    /// B. Walter et al., "Microfacet Models for Refraction through Rough Surfaces", EGSR 2007, section 5.2.
+    fn phong(
+        &mut self,
+        diffuse: TextureId,
+        specular: TextureId,
+        exponent: TextureId,
+    ) -> (&'static str, Element) {
+        self.losses.insert(Loss::Phong);
+        let textures = &self.scene.textures;
+        let is_even = [diffuse, specular, exponent].iter().all(|&id| textures.is_constant(id));
+        let [kd, ks] = [textures.mean(diffuse), textures.mean(specular)];
+        let [d, s] = [kd, ks].map(Spectrum::max_channel);
+        if !is_even || s == 0.0 {
+            return self.diffuse(diffuse);
+        }
+        let alpha = Real::sqrt(2.0 / (textures.mean(exponent).luminance() + 2.0));
+        let weight = s / (d + s);
+        let metal = plugin("roughconductor")
+            .with(string("material", "none"))
+            .with(float("alpha", alpha))
+            .with(self.constant("specular_reflectance", ks * weight.recip(), None, Share));
+        let base = match 1.0 - weight {
+            rest if rest > 0.0 => kd * rest.recip(),
+            _ => kd,
+        };
+        let base = plugin("diffuse").with(self.constant("reflectance", base, None, Share));
+        let parts = [base, metal];
+        ("blend", plugin("blendbsdf").with(float("weight", weight)).with_all(parts))
     }
 
     /// With the factors of reflected and transmitted light where they are not 1.

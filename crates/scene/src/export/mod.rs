@@ -35,6 +35,7 @@ use alloc::vec::Vec;
 pub use loss::Loss;
 
 use crate::Scene;
+use crate::scene::Layer;
 use element::Element;
 use exporter::Exporter;
 
@@ -65,6 +66,8 @@ pub struct ExportOptions {
     pub folder: String,
     /// A remark at the head of the scene file.
     pub remark: String,
+    /// The layers that a picture has beside its colours.
+    pub layers: Vec<Layer>,
 }
 
 /// Why a scene cannot be written.
@@ -99,6 +102,7 @@ pub fn export(scene: Scene, options: &ExportOptions) -> Result<Export, ExportErr
     let (scene, losses) = loss::without_what_is_lost(scene);
     let mut exporter = Exporter::new(&scene, spectral, losses, &options.folder);
     let integrator = integrator::element(&mut exporter);
+    let integrator = integrator::with_layers(integrator, &options.layers);
     let sensor = camera::sensor(&mut exporter);
     let shapes = shapes::elements(&mut exporter);
     let lights = lights::elements(&mut exporter)?;

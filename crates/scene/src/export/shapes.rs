@@ -87,9 +87,14 @@ fn shape(exporter: &mut Exporter<'_>, id: ShapeId) -> Option<Element> {
         }
     }
     let light = surface.light.and_then(|light| scene.lights.get(light.0 as usize));
-    if let Some(Light::Area(light)) = light {
-        let radiance = exporter.texture("radiance", light.radiance, Meaning::Light);
-        element = element.with(Element::plugin("emitter", "area").with(radiance));
+    let emission = match light {
+        Some(Light::Area(light)) => Some(("area", light.radiance)),
+        Some(Light::Beam(light)) => Some(("directionalarea", light.exitance)),
+        _ => None,
+    };
+    if let Some((kind, radiance)) = emission {
+        let radiance = exporter.texture("radiance", radiance, Meaning::Light);
+        element = element.with(Element::plugin("emitter", kind).with(radiance));
     }
     Some(element)
 }

@@ -104,6 +104,16 @@ impl Disk {
 
     pub(crate) fn sample_area(&self, u: [f32; 2]) -> ShapeSample {
         let [x, y] = disk::from_square(u.map(f64::from));
+        self.sample_at(x, y)
+    }
+
+    /// The point from which the normal leads to `above`; `None` where that is outside or behind.
+    pub(crate) fn foot(&self, above: Vec3) -> Option<ShapeSample> {
+        let (height, x, y) = self.plane(&Ray::new(above, -self.normal));
+        (height > 0.0 && x * x + y * y <= 1.0).then(|| self.sample_at(x, y))
+    }
+
+    fn sample_at(&self, x: f64, y: f64) -> ShapeSample {
         let s = self.at(x, y);
         ShapeSample {
             position: s.position,
@@ -118,6 +128,20 @@ impl Disk {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_foot_of_a_point_lies_below_it() {
+        let tilt = Transform::rotate(DVec3::X, 30.0).expect("a map");
+        let disk = Disk::new(&tilt);
+        let [at, up] = [Vec3::new(0.3, -0.4, 0.0), Vec3::Z].map(|v| tilt.vector(v));
+        let foot = disk.foot(at + 5.0 * up).expect("a point inside");
+        // A few roundings of coordinates of up to 5.
+        assert!(foot.position.distance(at) < 2e-6, "{foot:?}");
+        assert!((foot.uv[0] - 0.5).abs() < 1e-6);
+        assert!(disk.foot(at - 5.0 * up).is_none(), "behind");
+        assert!(disk.foot(at * 3.0 + up).is_none(), "outside");
+        assert!(disk.flipped().foot(at - 5.0 * up).is_some());
+    }
 
     #[test]
     fn the_radius_is_u_and_the_azimuth_v() {

@@ -105,6 +105,23 @@ impl Rectangle {
         }
     }
 
+    /// The point from which the normal leads to `above`; `None` where that is outside or behind.
+    pub(crate) fn foot(&self, above: Vec3) -> Option<ShapeSample> {
+        let [right, up] = self.partials().map(Vec3::as_dvec3);
+        let from_corner = above.as_dvec3() - self.corners[0].as_dvec3();
+        let normal = self.normal.as_dvec3();
+        let height = from_corner.dot(normal);
+        let foot = from_corner - normal * height;
+        // The coordinates in the basis of the sides, by Cramer's rule.
+        let [rr, ru, uu] = [right.dot(right), right.dot(up), up.dot(up)];
+        let [r, u] = [foot.dot(right), foot.dot(up)];
+        let determinant = rr * uu - ru * ru;
+        let uv = [(r * uu - u * ru) / determinant, (u * rr - r * ru) / determinant];
+        // Written so that NaN, of a rectangle without area, is outside.
+        let is_inside = height > 0.0 && uv.iter().all(|x| (0.0..=1.0).contains(x));
+        is_inside.then(|| self.at(uv.map(|x| x as f32)))
+    }
+
     /// The point with texture coordinates `(u, v)`.
     pub(crate) fn at(&self, [u, v]: [f32; 2]) -> ShapeSample {
         let s = if u >= v { self.surface(0, [u - v, v]) } else { self.surface(1, [u, v - u]) };

@@ -1,5 +1,6 @@
 //! The shapes a scene is made of.
 
+use etendue_math::glam::Vec3;
 use etendue_sampling::warp;
 
 use super::surface::LocalSurface;
@@ -111,6 +112,16 @@ impl Shape {
             Self::Rectangle(s) => s.area(),
             Self::Disk(s) => s.area(),
             Self::Cylinder(s) => s.area(),
+        }
+    }
+
+    /// The point of a rectangle or disk from which its normal leads to `above`; `None` where that is outside or behind, and
+    /// of other shapes.
+    pub(crate) fn foot(&self, above: Vec3) -> Option<ShapeSample> {
+        match self {
+            Self::Rectangle(s) => s.foot(above),
+            Self::Disk(s) => s.foot(above),
+            Self::Mesh(_) | Self::Sphere(_) | Self::Cylinder(_) => None,
         }
     }
 

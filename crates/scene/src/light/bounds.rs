@@ -3,7 +3,7 @@
 use etendue_math::Real;
 use etendue_math::glam::Vec3;
 
-use super::{AreaLight, PointLight, ProjectorLight, SpotLight};
+use super::{AreaLight, BeamLight, PointLight, ProjectorLight, SpotLight};
 use crate::geometry::{Aabb, Shape};
 use crate::texture::Textures;
 
@@ -62,6 +62,18 @@ impl LightBounds {
             cos_theta_e: 0.0,
             sides: EmissionSides::One,
         })
+    }
+
+    /// Of a flat shape that emits along its normal only.
+    pub(crate) fn of_beam(light: BeamLight, shape: &Shape, textures: &Textures) -> Self {
+        Self {
+            bounds: shape.bounds(),
+            power: light.power(textures, shape.area_total()),
+            axis: shape.sample_area(0, [0.5; 2]).map_or(Vec3::Z, |point| point.normal),
+            cos_theta_o: 1.0,
+            cos_theta_e: 1.0,
+            sides: EmissionSides::One,
+        }
     }
 
     /// Of a point light.

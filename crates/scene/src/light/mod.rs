@@ -1,6 +1,7 @@
 //! What light comes from.
 
 mod area;
+mod beam;
 mod bounds;
 mod environment;
 mod point;
@@ -11,6 +12,7 @@ use etendue_brdf::Density;
 use etendue_math::glam::Vec3;
 
 pub use area::AreaLight;
+pub use beam::BeamLight;
 pub use bounds::{EmissionSides, LightBounds};
 pub use environment::EnvironmentLight;
 pub use point::{ConstantLight, DirectionalLight, PointLight};
@@ -29,6 +31,8 @@ pub struct LightId(pub u32);
 pub enum Light {
     /// A shape that emits from its front side.
     Area(AreaLight),
+    /// A flat shape that emits along its normal only.
+    Beam(BeamLight),
     /// A point that emits evenly into all directions.
     Point(PointLight),
     /// A point that emits into a cone.
@@ -53,7 +57,14 @@ impl Light {
     /// Whether only light sampling finds it: no ray hits a point or a single direction.
     #[inline]
     pub fn is_delta(&self) -> bool {
-        matches!(self, Self::Point(_) | Self::Spot(_) | Self::Projector(_) | Self::Directional(_))
+        match self {
+            Self::Beam(_)
+            | Self::Point(_)
+            | Self::Spot(_)
+            | Self::Projector(_)
+            | Self::Directional(_) => true,
+            Self::Area(_) | Self::Constant(_) | Self::Environment(_) => false,
+        }
     }
 
     /// Where it is, of a light that is a single point.
@@ -62,7 +73,11 @@ impl Light {
             Self::Point(light) => Some(light.position),
             Self::Spot(light) => Some(light.position()),
             Self::Projector(light) => Some(light.position()),
-            Self::Area(_) | Self::Directional(_) | Self::Constant(_) | Self::Environment(_) => None,
+            Self::Area(_)
+            | Self::Beam(_)
+            | Self::Directional(_)
+            | Self::Constant(_)
+            | Self::Environment(_) => None,
         }
     }
 
@@ -87,6 +102,7 @@ impl Light {
     pub fn texture(&self) -> Option<TextureId> {
         match self {
             Self::Area(light) => Some(light.radiance),
+            Self::Beam(light) => Some(light.exitance),
             Self::Spot(light) => light.texture(),
             Self::Projector(light) => Some(light.texture()),
             Self::Point(_) | Self::Directional(_) | Self::Constant(_) | Self::Environment(_) => {

@@ -1,7 +1,7 @@
 //! MTL material libraries.
 //!
 //! Values are kept as written; what they mean for a BSDF is decided by whoever uses them. `Ka`,
-//! spectral files, CIE XYZ colours and texture options other than the file are left aside.
+//! spectral files, CIE XYZ colours and texture options other than those of [`MtlMap`] are left aside.
 
 use alloc::format;
 use alloc::string::String;
@@ -14,6 +14,27 @@ use crate::error::{Location, SceneError, Warning};
 use super::file::read_asset;
 use super::lines::{Lines, fields, quote, real, statement};
 use super::warnings::KindWarnings;
+
+/// A texture of an MTL file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MtlMap {
+    /// The image, relative to the folder of the MTL file.
+    pub path: PathBuf,
+    /// `-s`: what texture coordinates are multiplied by.
+    pub scale: [f32; 2],
+    /// `-o`: what is then added to them.
+    pub offset: [f32; 2],
+    /// `-bm`: what heights of bumps are multiplied by.
+    pub bump: f32,
+    /// `-clamp`: whether the image is not repeated.
+    pub clamp: bool,
+}
+
+impl MtlMap {
+    fn new(path: PathBuf) -> Self {
+        Self { path, scale: [1.0; 2], offset: [0.0; 2], bump: 1.0, clamp: false }
+    }
+}
 
 /// A material of an MTL file. What the file does not state is `None`.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -30,6 +51,8 @@ pub struct MtlMaterial {
     pub shininess: Option<f32>,
     /// `Ni`: index of refraction.
     pub ior: Option<f32>,
+    /// `Tf`: colour of light that is let through.
+    pub transmission: Option<Color>,
     /// `d`, or 1 − `Tr`: opacity, 1 is opaque.
     pub opacity: Option<f32>,
     /// `illum`: illumination model, 0 to 10.
@@ -38,10 +61,30 @@ pub struct MtlMaterial {
     pub roughness: Option<f32>,
     /// `Pm`: metalness of the PBR extension.
     pub metallic: Option<f32>,
-    /// `map_Kd`: texture of the diffuse reflectance.
-    pub diffuse_map: Option<PathBuf>,
-    /// `map_d`: texture of the opacity.
-    pub opacity_map: Option<PathBuf>,
+    /// `Ps`: weight of the sheen of the PBR extension.
+    pub sheen: Option<f32>,
+    /// `Pc`: weight of the clear coat of the PBR extension.
+    pub clearcoat: Option<f32>,
+    /// `Pcr`: roughness of the clear coat of the PBR extension.
+    pub clearcoat_roughness: Option<f32>,
+    /// `aniso`: anisotropy of the PBR extension.
+    pub anisotropy: Option<f32>,
+    /// `map_Kd`
+    pub diffuse_map: Option<MtlMap>,
+    /// `map_Ks`
+    pub specular_map: Option<MtlMap>,
+    /// `map_Ke`
+    pub emission_map: Option<MtlMap>,
+    /// `map_d`
+    pub opacity_map: Option<MtlMap>,
+    /// `map_Pr`
+    pub roughness_map: Option<MtlMap>,
+    /// `map_Pm`
+    pub metallic_map: Option<MtlMap>,
+    /// `norm`: texture of normals in the tangent frame.
+    pub normal_map: Option<MtlMap>,
+    /// `bump` or `map_bump`: texture of heights.
+    pub bump_map: Option<MtlMap>,
 }
 
 /// The materials of an MTL file in order, and what was ignored.
@@ -111,14 +154,15 @@ fn property(
         None => Err(format!("{} needs a number", name())),
     };
     match keyword {
-        b"Kd" | b"Ks" | b"Ke" => {
+        b"Kd" | b"Ks" | b"Ke" | b"Tf" => {
             let Some(value) = color(rest).map_err(|m| format!("{}: {m}", name()))? else {
                 return Ok(Some(format!("'{} spectral' and '{0} xyz'", name())));
             };
             match keyword {
                 b"Kd" => material.diffuse = Some(value),
                 b"Ks" => material.specular = Some(value),
-                _ => material.emission = Some(value),
+                b"Ke" => material.emission = Some(value),
+                _ => material.transmission = Some(value),
             }
         }
         b"Ns" => material.shininess = Some(number()?),
@@ -135,24 +179,37 @@ fn property(
         b"illum" => material.illumination = Some(number()?),
         b"Pr" => material.roughness = Some(number()?),
         b"Pm" => material.metallic = Some(number()?),
-        b"map_Kd" | b"map_d" => {
-            let (file, options) = texture(rest);
-            if file.is_empty() {
+        b"Ps" => material.sheen = Some(number()?),
+        b"Pc" => material.clearcoat = Some(number()?),
+        b"Pcr" => material.clearcoat_roughness = Some(number()?),
+        b"aniso" => material.anisotropy = Some(number()?),
+        b"Ka" | b"map_Ka" => {} // ambient light has no place in a path tracer
+        _ => {
+            let Some(slot) = map(material, keyword) else { return Ok(Some(quote(keyword))) };
+            let (texture, ignored) = texture(rest, path);
+            if texture.path.file_name().is_none() || texture.path.as_os_str().is_empty() {
                 return Err(format!("{} needs a file name", name()));
             }
-            let file = Some(relative(path, file));
-            match keyword {
-                b"map_Kd" => material.diffuse_map = file,
-                _ => material.opacity_map = file,
-            }
-            if options {
-                return Ok(Some(format!("options of '{}'", name())));
-            }
+            *slot = Some(texture);
+            return Ok(ignored.then(|| format!("options of '{}'", name())));
         }
-        b"Ka" | b"map_Ka" => {} // ambient light has no place in a path tracer
-        _ => return Ok(Some(quote(keyword))),
     }
     Ok(None)
+}
+
+/// Where the texture of a statement belongs; `None` for a statement that is none, or of no known kind.
+fn map<'m>(material: &'m mut MtlMaterial, keyword: &[u8]) -> Option<&'m mut Option<MtlMap>> {
+    Some(match keyword {
+        b"map_Kd" => &mut material.diffuse_map,
+        b"map_Ks" => &mut material.specular_map,
+        b"map_Ke" => &mut material.emission_map,
+        b"map_d" => &mut material.opacity_map,
+        b"map_Pr" => &mut material.roughness_map,
+        b"map_Pm" => &mut material.metallic_map,
+        b"norm" => &mut material.normal_map,
+        b"bump" | b"map_bump" | b"map_Bump" => &mut material.bump_map,
+        _ => return None,
+    })
 }
 
 /// A colour of three numbers, or of one for grey; `None` for spectral curves and XYZ.
@@ -175,10 +232,12 @@ fn color(rest: &[u8]) -> Result<Option<Color>, String> {
     }
 }
 
-/// The file name of a texture statement, which may hold spaces, and whether options precede it.
-fn texture(rest: &[u8]) -> (&[u8], bool) {
+/// The texture of a statement, whose file name may hold spaces, and whether an option is ignored. The path is empty where the
+/// statement names no file.
+fn texture(rest: &[u8], mtl: &Path) -> (MtlMap, bool) {
+    let mut map = MtlMap::new(PathBuf::new());
     let mut file = rest;
-    let mut options = false;
+    let mut ignored = false;
     while let (option @ [b'-', ..], tail) = statement(file) {
         // Most to fewest arguments: of -o, -s and -t the second and third number may be missing.
         let (required, optional) = match option {
@@ -188,17 +247,31 @@ fn texture(rest: &[u8]) -> (&[u8], bool) {
             | b"-texres" | b"-type" => (1, 0),
             _ => break,
         };
-        options = true;
         file = tail;
+        let mut numbers = [None; 3];
+        let mut word: &[u8] = b"";
         for argument in 0..required + optional {
             let (value, after) = statement(file);
-            if argument >= required && real(value).is_err() {
+            let number = real(value);
+            if argument >= required && number.is_err() {
                 break;
             }
+            numbers[argument] = number.ok();
+            word = value;
             file = after;
         }
+        match (option, numbers) {
+            (b"-s", [Some(u), v, _]) => map.scale = [u, v.unwrap_or(1.0)],
+            (b"-o", [Some(u), v, _]) => map.offset = [u, v.unwrap_or(0.0)],
+            (b"-bm", [Some(factor), ..]) => map.bump = factor,
+            (b"-clamp", _) => map.clamp = word == b"on",
+            _ => ignored = true,
+        }
     }
-    (file, options)
+    if !file.is_empty() {
+        map.path = relative(mtl, file);
+    }
+    (map, ignored)
 }
 
 /// A path written in a file, relative to that file. Backslashes separate folders as well.
@@ -231,13 +304,18 @@ mod tests {
     fn scalars_and_textures_are_kept() {
         let m = material(
             "newmtl a b\nNs 10\nNi 1.5\nTr 0.25\nillum 2\nPr .3\nPm 1\nmap_Kd tex\\my wood.png\n\
-             map_d -s 1 2 -clamp on -bm 1 leaf.png",
+             map_d -s 3 2 -clamp on -o 0.5 leaf.png\nmap_Bump -bm 0.1 -mm 0 1 bumps.png\nPc 1\nTf 1 0 0",
         );
         assert_eq!(m.name, "a b");
         assert_eq!((m.shininess, m.ior, m.opacity), (Some(10.0), Some(1.5), Some(0.75)));
         assert_eq!((m.illumination, m.roughness, m.metallic), (Some(2.0), Some(0.3), Some(1.0)));
-        assert_eq!(m.diffuse_map.as_deref(), Some(Path::new("dir/tex/my wood.png")));
-        assert_eq!(m.opacity_map.as_deref(), Some(Path::new("dir/leaf.png")));
+        assert_eq!((m.clearcoat, m.transmission), (Some(1.0), Some(Color::new(1.0, 0.0, 0.0))));
+        assert_eq!(m.diffuse_map, Some(MtlMap::new("dir/tex/my wood.png".into())));
+        let leaf = MtlMap::new("dir/leaf.png".into());
+        let leaf = MtlMap { scale: [3.0, 2.0], offset: [0.5, 0.0], clamp: true, ..leaf };
+        assert_eq!(m.opacity_map, Some(leaf));
+        let bumps = MtlMap { bump: 0.1, ..MtlMap::new("dir/bumps.png".into()) };
+        assert_eq!(m.bump_map, Some(bumps));
         assert_eq!(material("newmtl a\nd -halo 0.5").opacity, Some(0.5));
     }
 

@@ -59,6 +59,22 @@ pub enum Material {
         /// Which of their two forms.
         form: OrenNayarForm,
     },
+    /// A thin sheet that scatters to both sides.
+    DiffuseTransmitter {
+        /// Share of light that it reflects.
+        reflectance: TextureId,
+        /// Share of light that it lets through; where both exceed 1 together, both are scaled.
+        transmittance: TextureId,
+    },
+    /// Phong's model, modified: a diffuse part and a power of the cosine around the mirror direction.
+    Phong {
+        /// Share of light in the diffuse part.
+        diffuse_reflectance: TextureId,
+        /// Share of light in the lobe; where both exceed 1 together, both are scaled.
+        specular_reflectance: TextureId,
+        /// The power.
+        exponent: TextureId,
+    },
     /// An interface between two transparent media.
     Dielectric {
         /// Index of the medium behind the surface relative to the one in front.
@@ -295,6 +311,7 @@ impl Materials {
         match material {
             Material::Diffuse { .. }
             | Material::RoughDiffuse { .. }
+            | Material::Phong { .. }
             | Material::Conductor { .. }
             | Material::Plastic { .. } => true,
             Material::Principled(textures) => textures.spec_trans.is_none(),
@@ -306,7 +323,8 @@ impl Materials {
                 let part = |id| self.get(id).is_some_and(|part| self.is_one_sided(part));
                 material.nested().all(part)
             }
-            Material::Dielectric { .. }
+            Material::DiffuseTransmitter { .. }
+            | Material::Dielectric { .. }
             | Material::ThinDielectric { .. }
             | Material::PrincipledThin(_)
             | Material::Mask { .. }
@@ -378,6 +396,12 @@ impl Material {
         let textures = match *self {
             Self::Diffuse { reflectance } => Vec::from([reflectance]),
             Self::RoughDiffuse { reflectance, sigma, .. } => Vec::from([reflectance, sigma]),
+            Self::DiffuseTransmitter { reflectance, transmittance } => {
+                Vec::from([reflectance, transmittance])
+            }
+            Self::Phong { diffuse_reflectance, specular_reflectance, exponent } => {
+                Vec::from([diffuse_reflectance, specular_reflectance, exponent])
+            }
             Self::Dielectric {
                 roughness, specular_reflectance, specular_transmittance, ..
             } => {
@@ -422,6 +446,7 @@ impl Material {
             Self::Dielectric { .. } | Self::ThinDielectric { .. } | Self::Conductor { .. } => {
                 ("smooth", cfg!(feature = "smooth"))
             }
+            Self::Phong { .. } => ("phong", cfg!(feature = "phong")),
             Self::Plastic { .. } => ("layered", cfg!(feature = "layered")),
             Self::Principled(_) | Self::PrincipledThin(_) => {
                 ("principled", cfg!(feature = "principled"))
@@ -431,6 +456,7 @@ impl Material {
             }
             Self::Diffuse { .. }
             | Self::RoughDiffuse { .. }
+            | Self::DiffuseTransmitter { .. }
             | Self::Mask { .. }
             | Self::TwoSided { .. }
             | Self::Null => return None,

@@ -1,9 +1,10 @@
 //! One reflection model, whichever it is.
 
 use etendue_brdf::{
-    Bsdf, Lambert, Lobes, Null, OrenNayar, OrenNayarQualitative, Plastic, Principled,
-    PrincipledParameters, PrincipledThin, PrincipledThinParameters, RoughConductor,
-    RoughDielectric, RoughPlastic, Sample, SmoothConductor, SmoothDielectric, ThinDielectric,
+    Bsdf, DiffuseTransmitter, Lambert, Lobes, Null, OrenNayar, OrenNayarQualitative, Phong,
+    Plastic, Principled, PrincipledParameters, PrincipledThin, PrincipledThinParameters,
+    RoughConductor, RoughDielectric, RoughPlastic, Sample, SmoothConductor, SmoothDielectric,
+    ThinDielectric,
 };
 use etendue_math::Spectrum;
 use etendue_math::glam::Vec3;
@@ -22,6 +23,10 @@ pub enum Model<'a, C: Channels = Primaries> {
     OrenNayar(OrenNayar<C::Color>),
     /// Rough diffuse, simplified.
     OrenNayarQualitative(OrenNayarQualitative<C::Color>),
+    /// A thin sheet that scatters to both sides.
+    DiffuseTransmitter(DiffuseTransmitter<C::Color>),
+    /// A diffuse part and a lobe around the mirror direction.
+    Phong(Phong<C::Color>),
     /// A smooth interface of transparent media.
     SmoothDielectric(SmoothDielectric<C::Color>),
     /// A rough interface of transparent media.
@@ -104,7 +109,9 @@ impl<C: Channels> Model<'_, C> {
             | Self::SmoothConductor(_)
             | Self::RoughConductor(_)
             | Self::Null(_) => false,
-            Self::SmoothDielectric(_)
+            Self::DiffuseTransmitter(_)
+            | Self::Phong(_)
+            | Self::SmoothDielectric(_)
             | Self::RoughDielectric(_)
             | Self::Dispersive(_)
             | Self::Compensated(_)
@@ -207,6 +214,8 @@ forward_bsdf!(
     OrenNayar,
     OrenNayarQualitative,
     Null,
+    DiffuseTransmitter,
+    Phong if cfg!(feature = "phong"),
     SmoothDielectric if cfg!(feature = "smooth"),
     ThinDielectric if cfg!(feature = "smooth"),
     SmoothConductor if cfg!(feature = "smooth"),

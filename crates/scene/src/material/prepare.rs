@@ -1,9 +1,10 @@
 //! From a material to its reflection model at one point.
 
 use etendue_brdf::{
-    Alpha, ComplexIor, Ior, KullaContyConductor, Lambert, Microfacets, Null, Opacity, OrenNayar,
-    OrenNayarQualitative, Plastic, Reflectance, RoughConductor, RoughDielectric, RoughPlastic,
-    Sigma, SmoothConductor, SmoothDielectric, ThinDielectric,
+    Alpha, ComplexIor, DiffuseTransmitter, Exponent, Ior, KullaContyConductor, Lambert,
+    Microfacets, Null, Opacity, OrenNayar, OrenNayarQualitative, Phong, Plastic, Reflectance,
+    RoughConductor, RoughDielectric, RoughPlastic, Sigma, SmoothConductor, SmoothDielectric,
+    ThinDielectric,
 };
 
 use etendue_math::glam::Vec3;
@@ -220,6 +221,14 @@ fn model<'a, C: Channels>(material: Option<&'a Material>, at: At<'a, C>) -> Mode
                     Model::OrenNayarQualitative(OrenNayarQualitative::new(reflectance, sigma))
                 }
             }
+        }
+        Material::DiffuseTransmitter { reflectance, transmittance } => {
+            let [r, t] = [reflectance, transmittance].map(|id| at.reflectance(id));
+            Model::DiffuseTransmitter(DiffuseTransmitter::clamped(r, t))
+        }
+        Material::Phong { diffuse_reflectance, specular_reflectance, exponent } => {
+            let [kd, ks] = [diffuse_reflectance, specular_reflectance].map(|id| at.reflectance(id));
+            Model::Phong(Phong::clamped(kd, ks, Exponent::clamped(at.value(exponent))))
         }
         Material::Dielectric {
             eta,

@@ -5,23 +5,18 @@ use alloc::string::String;
 use alloc::vec::Vec;
 use std::path::Path;
 
-use super::image::texels;
+use super::emitter::Emission;
+use super::mtl::Look;
 use super::shape::{Surface, add_surface, shaded};
-use super::{Context, LoadOptions, LoadedScene, bsdf, scene};
+use super::{Context, LoadOptions, LoadedScene, bsdf, mtl, scene};
 use crate::geometry::Shape;
 use crate::light::{ConstantLight, Light};
-use crate::load::{Encoding, MeshFile, MtlMaterial, ObjMesh, ObjScene};
-use crate::load::{TexCoords, load_image, load_obj, load_ply};
-use crate::material::{Material, MaterialId};
+use crate::load::{MeshFile, MtlMaterial, ObjMesh, ObjScene, TexCoords, load_obj, load_ply};
 use crate::scene::PathSettings;
-use crate::texture::{Bitmap, Filter, Texture, TextureId, UvTransform, Wrap};
 use crate::xml::{Leniency, parse_float, parse_list, parse_text};
 use crate::{Color, Location, SceneError};
 
-/// What a mesh without material reflects.
-const DEFAULT_ALBEDO: Color = Color::new(0.5, 0.5, 0.5);
-
-/// The mesh of a file, in white light from everywhere.
+/// The mesh of a file, in white light from everywhere unless it emits light itself.
 ///
 /// # Errors
 /// A file that is no mesh, a bsdf that is none.
@@ -35,38 +30,34 @@ pub(super) fn mesh(path: &Path, options: &LoadOptions) -> Result<LoadedScene, Sc
     let mut given = None;
     if let Some(child) = description.root().children.first() {
         let material = bsdf::translate(&mut context, child.node)?;
-        given = Some(on_both_sides(&mut context, material));
+        given = Some(mtl::on_both_sides(&mut context, material));
     }
     let ObjScene { meshes, materials, warnings } = read(path)?;
     context.warnings.extend(warnings);
-    let own: Vec<_> = if given.is_none() {
-        materials.iter().map(|m| mtl(&mut context, m, path)).collect::<Result<_, _>>()?
+    let own: Vec<Look> = if given.is_none() {
+        materials.iter().map(|m| mtl::look(&mut context, m, path)).collect::<Result<_, _>>()?
     } else {
         Vec::new()
     };
     let other = match given {
-        Some(material) => material,
-        None => {
-            let reflectance = context.textures.constant(DEFAULT_ALBEDO);
-            diffuse(&mut context, reflectance, path)?
-        }
+        Some(material) => Look { material, radiance: None },
+        None => mtl::look(&mut context, &MtlMaterial::default(), path)?,
     };
     for ObjMesh { name, material, mesh } in meshes {
         let is_flat = false;
         let mesh = shaded(mesh, is_flat)
             .map_err(|e| SceneError::scene(Location::file(path), format!("{e}")))?;
-        let material = material.and_then(|index| own.get(index)).copied().unwrap_or(other);
-        let surface = Surface {
-            shape: Shape::Mesh(mesh),
-            motion: None,
-            material,
-            radiance: None,
-            boundary: None,
-            name,
-        };
+        let Look { material, radiance } =
+            material.and_then(|index| own.get(index)).copied().unwrap_or(other);
+        let shape = Shape::Mesh(mesh);
+        let emission = radiance.filter(|_| shape.area_total() > 0.0).map(Emission::Everywhere);
+        let surface = Surface { shape, motion: None, material, emission, boundary: None, name };
         add_surface(&mut context, surface);
     }
-    context.lights.push(Light::Constant(ConstantLight { radiance: Color::new(1.0, 1.0, 1.0) }));
+    if context.lights.is_empty() {
+        let radiance = Color::new(1.0, 1.0, 1.0);
+        context.lights.push(Light::Constant(ConstantLight { radiance }));
+    }
     scene::assemble(context, None, PathSettings::default())
 }
 
@@ -80,51 +71,6 @@ fn read(path: &Path) -> Result<ObjScene, SceneError> {
     let mesh = mesh.keep_attributes(|_| false);
     let mesh = ObjMesh { name, material: None, mesh };
     Ok(ObjScene { meshes: Vec::from([mesh]), materials: Vec::new(), warnings })
-}
-
-/// The diffuse part of an MTL material. A texture that cannot be read is a warning, since meshes
-/// often travel without theirs.
-fn mtl(
-    context: &mut Context<'_>,
-    material: &MtlMaterial,
-    path: &Path,
-) -> Result<MaterialId, SceneError> {
-    let color = material.diffuse.unwrap_or(DEFAULT_ALBEDO);
-    let mut reflectance = context.textures.constant(color.to_array().map(|c| c.min(1.0)).into());
-    if let Some(map) = &material.diffuse_map {
-        match bitmap(map) {
-            Ok(bitmap) => {
-                context.files.push(map.clone());
-                reflectance = context.textures.add(Texture::Bitmap(bitmap));
-            }
-            Err(error) => context.warn(error.location, error.message),
-        }
-    }
-    diffuse(context, reflectance, path)
-}
-
-fn bitmap(path: &Path) -> Result<Bitmap, SceneError> {
-    let image = load_image(path, Encoding::Srgb)?;
-    texels(&image)
-        .map(|image| Bitmap::new(image, Filter::Bilinear, Wrap::Repeat, UvTransform::IDENTITY))
-        .map_err(|error| SceneError::scene(Location::file(path), format!("{error}")))
-}
-
-fn diffuse(
-    context: &mut Context<'_>,
-    reflectance: TextureId,
-    path: &Path,
-) -> Result<MaterialId, SceneError> {
-    let material = Material::Diffuse { reflectance };
-    let material = context.add_material(material, &Location::file(path))?;
-    Ok(on_both_sides(context, material))
-}
-
-/// The material on both sides where it has only one: which side of a bare mesh is its outside is
-/// anybody's guess.
-fn on_both_sides(context: &mut Context<'_>, material: MaterialId) -> MaterialId {
-    let both = Material::TwoSided { front: material, back: material };
-    context.materials.add(both).unwrap_or(material)
 }
 
 /// `TYPE[:key=value,…]` as an element of a scene file: numbers are floats, three numbers with blanks

@@ -12,7 +12,7 @@ use crate::geometry::{GeometryBuilder, GroupId, Shutter};
 use crate::light::Light;
 use crate::material::{Material, MaterialId, Materials};
 use crate::medium::{Media, MediumId};
-use crate::scene::SurfaceInfo;
+use crate::scene::{Layer, SurfaceInfo};
 use crate::texture::{TextureId, Textures};
 use crate::xml::{Description, Node, NodeId, nearest};
 use crate::{Location, SceneError, Warning};
@@ -40,6 +40,8 @@ pub(super) struct Context<'a> {
     pub(super) surfaces: Vec<SurfaceInfo>,
     pub(super) lights: Vec<Light>,
     pub(super) media: Media,
+    /// What the picture is to have beside its colours.
+    pub(super) layers: Vec<Layer>,
     /// Where what stands above is described.
     pub(super) origins: Origins,
     /// What was translated already, since many may refer to it.
@@ -63,6 +65,7 @@ impl<'a> Context<'a> {
             surfaces: Vec::new(),
             lights: Vec::new(),
             media: Media::default(),
+            layers: Vec::new(),
             origins: Origins::default(),
             texture_ids: BTreeMap::new(),
             material_ids: BTreeMap::new(),

@@ -25,6 +25,7 @@ const EMITTERS: &Family<Light> = &[
     ("area", misplaced),
     ("constant", constant),
     ("directional", directional),
+    ("directionalarea", misplaced),
     ("envmap", envmap),
     ("point", point),
     ("projector", projector),
@@ -32,7 +33,16 @@ const EMITTERS: &Family<Light> = &[
 ];
 
 /// The emitters that make a shape shine.
-const SHAPE_EMITTERS: &Family<TextureId> = &[("area", area)];
+const SHAPE_EMITTERS: &Family<Emission> = &[("area", area), ("directionalarea", directional_area)];
+
+/// What a shape emits.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Emission {
+    /// Radiance from every point into all directions.
+    Everywhere(TextureId),
+    /// Radiant exitance along the normal.
+    Ahead(TextureId),
+}
 
 /// Adds the light a node describes.
 pub(super) fn add(context: &mut Context<'_>, id: NodeId) -> Result<(), SceneError> {
@@ -43,13 +53,28 @@ pub(super) fn add(context: &mut Context<'_>, id: NodeId) -> Result<(), SceneErro
     Ok(())
 }
 
-/// The radiance of an emitter inside a shape.
-pub(super) fn radiance(context: &mut Context<'_>, id: NodeId) -> Result<TextureId, SceneError> {
+/// What an emitter inside a shape makes it emit.
+pub(super) fn emission(context: &mut Context<'_>, id: NodeId) -> Result<Emission, SceneError> {
     context.translate(SHAPE_EMITTERS, context.description.node(id))
 }
 
 /// `radiance` (1).
 fn area<'a>(
+    reader: &mut PluginReader<'a>,
+    context: &mut Context<'a>,
+) -> Result<Emission, SceneError> {
+    radiance(reader, context).map(Emission::Everywhere)
+}
+
+/// `radiance` (1), which is the exitance here.
+fn directional_area<'a>(
+    reader: &mut PluginReader<'a>,
+    context: &mut Context<'a>,
+) -> Result<Emission, SceneError> {
+    radiance(reader, context).map(Emission::Ahead)
+}
+
+fn radiance<'a>(
     reader: &mut PluginReader<'a>,
     context: &mut Context<'a>,
 ) -> Result<TextureId, SceneError> {
@@ -74,7 +99,7 @@ fn by_coordinates(
 }
 
 fn misplaced<'a>(reader: &mut PluginReader<'a>, _: &mut Context<'a>) -> Result<Light, SceneError> {
-    Err(reader.error("radiance", "an area emitter must stand inside a shape"))
+    Err(reader.error("radiance", format!("{} must stand inside a shape", reader.title())))
 }
 
 /// `radiance` (1).

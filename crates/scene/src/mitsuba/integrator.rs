@@ -6,14 +6,17 @@ use super::reader::PluginReader;
 use super::{Context, Family};
 use crate::SceneError;
 use crate::effect::Element;
-use crate::scene::PathSettings;
+use crate::scene::{Layer, PathSettings, Shows};
 use crate::xml::{Kind, NodeId};
 
 /// The integrators there are.
 const INTEGRATORS: &Family<PathSettings> = &[
+    ("aov", aov),
+    ("depth", distance),
     ("direct", direct),
     ("moment", moment),
     ("path", path),
+    ("ptracer", particles),
     ("volpath", volumetric_path),
     ("volpathmis", volumetric_path),
 ];
@@ -44,7 +47,24 @@ fn path<'a>(
         strict_normals: reader.boolean("strict_normals", false)?,
         volumes: false,
         spectral: reader.boolean("spectral", false)?,
+        shows: Shows::Light,
     })
+}
+
+/// Paths from the lights, in Mitsuba; here the same light by paths from the camera. The parameters of `path`.
+fn particles<'a>(
+    reader: &mut PluginReader<'a>,
+    context: &mut Context<'a>,
+) -> Result<PathSettings, SceneError> {
+    // How the work is divided.
+    reader.ignore(&["samples_per_pass"]);
+    path(reader, context)
+}
+
+/// No light: how far away things are.
+#[expect(clippy::unnecessary_wraps, reason = "the signature of its family")]
+fn distance<'a>(_: &mut PluginReader<'a>, _: &mut Context<'a>) -> Result<PathSettings, SceneError> {
+    Ok(PathSettings { shows: Shows::Distance, ..PathSettings::default() })
 }
 
 /// The parameters of `path`; knows media. Its `rr_depth` is the last number of edges at which no path is
@@ -71,6 +91,45 @@ fn direct<'a>(
         strict_normals: reader.boolean("strict_normals", false)?,
         ..PathSettings::default()
     })
+}
+
+/// A wrapper that adds layers: `aovs` (pairs `name:type`, whose names are not kept), and one integrator, `path` if none.
+fn aov<'a>(
+    reader: &mut PluginReader<'a>,
+    context: &mut Context<'a>,
+) -> Result<PathSettings, SceneError> {
+    const LAYERS: [(&str, Layer); 6] = [
+        ("albedo", Layer::Albedo),
+        ("depth", Layer::Depth),
+        ("position", Layer::Position),
+        ("sh_normal", Layer::Normal),
+        ("shape_index", Layer::Shape),
+        ("uv", Layer::Uv),
+    ];
+    for item in reader.string("aovs")?.unwrap_or_default().split([',', ' ']) {
+        let Some((_, kind)) = item.split_once(':') else {
+            if item.is_empty() {
+                continue;
+            }
+            return Err(reader.error("aovs", format!("“{item}” is no pair “name:type”")));
+        };
+        match LAYERS.iter().find(|(name, _)| *name == kind) {
+            Some(&(_, layer)) => context.layers.push(layer),
+            None => {
+                let known = LAYERS.map(|(name, _)| name).join(", ");
+                let error = reader.error("aovs", format!("there is no layer “{kind}”"));
+                return Err(error.help(format!("there are {known}")));
+            }
+        }
+    }
+    match reader.children(Kind::Integrator, context)[..] {
+        [] => Ok(PathSettings::default()),
+        [inner] => translate(context, inner.node),
+        [_, second, ..] => {
+            let message = "“aov” can show one picture only";
+            Err(SceneError::scene(second.location.clone(), message))
+        }
+    }
 }
 
 /// A wrapper that adds the second moment to the picture, which is not a matter of the scene here.

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use super::origins::Origins;
 use super::{Context, bare, scene};
 use crate::film::Crop;
-use crate::scene::{SamplerKind, Scene};
+use crate::scene::{Layer, SamplerKind, Scene};
 use crate::xml::{Leniency, parse_file};
 use crate::{Location, SceneError, Warning};
 
@@ -45,15 +45,17 @@ pub struct LoadedScene {
     pub warnings: Vec<Warning>,
     /// Every file that was read, the scene's own first.
     pub files: Vec<PathBuf>,
+    /// The layers that it asks for beside the picture: what a render may add is not part of a scene.
+    pub layers: Vec<Layer>,
     /// Where its parts are described.
     pub origins: Origins,
 }
 
 /// Loads a scene file (`.xml`) or a bare mesh (`.obj`, `.ply`).
 ///
-/// A bare mesh stands in white light of radiance 1 from everywhere, seen from its front, right and
-/// above by a camera that holds all of it; y is up. It is made of [`LoadOptions::bsdf`], of the diffuse
-/// colours of its MTL file, or of grey that reflects a half, on both sides.
+/// A bare mesh stands in white light of radiance 1 from everywhere, unless it emits light itself, seen from its front, right
+/// and above by a camera that holds all of it; y is up. It is made of [`LoadOptions::bsdf`], of the materials of its MTL file,
+/// or of grey that reflects a half, on both sides.
 ///
 /// # Errors
 /// Files that cannot be read, content that is wrong or not supported, and demands for too much

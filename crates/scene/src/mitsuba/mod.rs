@@ -24,12 +24,14 @@ mod integrator;
 mod ior;
 mod load;
 mod medium;
+mod mtl;
 mod origins;
 mod reader;
 mod sampler;
 mod scene;
 mod sensor;
 mod shape;
+mod spectrum;
 mod texture;
 mod value;
 

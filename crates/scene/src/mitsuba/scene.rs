@@ -85,8 +85,9 @@ pub(super) fn assemble(
         let message = "the integrator sees no media; “volpath” does";
         context.warn(file.clone(), message);
     }
-    let Context { description, surfaces, materials, textures, lights, media, origins, .. } =
-        context;
+    let Context {
+        description, surfaces, materials, textures, lights, media, layers, origins, ..
+    } = context;
     let mut files = description.files.clone();
     files.extend(context.files);
     let mut warnings = description.warnings.clone();
@@ -104,5 +105,5 @@ pub(super) fn assemble(
         path,
     };
     let scene = Scene::new(parts).map_err(|error| SceneError::scene(file, format!("{error}")))?;
-    Ok(LoadedScene { scene, warnings, files, origins })
+    Ok(LoadedScene { scene, warnings, files, layers, origins })
 }

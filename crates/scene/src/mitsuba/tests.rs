@@ -52,9 +52,9 @@ fn refused(content: &str, line: u32, fragment: &str) {
 #[test]
 fn unknown_plugins_and_parameters_are_named_with_those_that_exist() {
     refused(
-        "<shape type=\"sphere\">\n<bsdf type=\"hair\"/></shape>",
+        "<shape type=\"sphere\">\n<bsdf type=\"fur\"/></shape>",
         3,
-        "the bsdf “hair” is not supported; supported are blendbsdf, bumpmap, conductor",
+        "the bsdf “fur” is not supported; supported are blendbsdf, bumpmap, conductor",
     );
     refused("<bsdf type=\"difuse\"/>", 2, "did you mean “diffuse”?");
     refused(
@@ -67,7 +67,7 @@ fn unknown_plugins_and_parameters_are_named_with_those_that_exist() {
         2,
         "cannot use a medium",
     );
-    refused("<integrator type=\"ptracer\"/>", 2, "the integrator “ptracer” is not supported");
+    refused("<integrator type=\"prb\"/>", 2, "the integrator “prb” is not supported");
     refused("<shape type=\"hair\"/>", 2, "the shape “hair” is not supported");
 }
 

@@ -3,7 +3,7 @@
 use super::image::image;
 use super::reader::PluginReader;
 use super::value::{Role, color_or, texture_or};
-use super::{Context, Family, medium};
+use super::{Context, Family, medium, spectrum};
 use alloc::format;
 
 use crate::SceneError;
@@ -12,14 +12,18 @@ use crate::load::Encoding;
 use crate::texture::{
     AttributeTexture, Bitmap, Checkerboard, Filter, Texture, TextureId, VolumeTexture, Wrap,
 };
-use crate::xml::NodeId;
+use crate::xml::{NodeId, Property, Value};
 
 /// The textures there are, spectra with a type included.
 const TEXTURES: &Family<TextureId> = &[
     ("bitmap", bitmap),
+    ("blackbody", spectrum::of_matter),
     ("checkerboard", checkerboard),
     ("d65", d65),
+    ("irregular", spectrum::of_matter),
     ("mesh_attribute", mesh_attribute),
+    ("rawconstant", raw_constant),
+    ("regular", spectrum::of_matter),
     ("srgb", srgb),
     ("uniform", uniform),
     ("volume", volume),
@@ -106,6 +110,20 @@ fn uniform<'a>(
     reader: &mut PluginReader<'a>,
     context: &mut Context<'a>,
 ) -> Result<TextureId, SceneError> {
+    texture_or(reader, context, "value", Role::Material, 1.0)
+}
+
+/// One or three numbers that are no colour: `value`.
+fn raw_constant<'a>(
+    reader: &mut PluginReader<'a>,
+    context: &mut Context<'a>,
+) -> Result<TextureId, SceneError> {
+    if let Some(Property { value: Value::Vector(v), .. }) = reader.property("value") {
+        if v.min_element() < 0.0 {
+            return Err(reader.error("value", "“value” must not be negative"));
+        }
+        return Ok(context.textures.constant(v.as_vec3().to_array().into()));
+    }
     texture_or(reader, context, "value", Role::Material, 1.0)
 }
 

@@ -5,7 +5,7 @@ use alloc::format;
 use etendue_math::Rgb;
 
 use super::reader::PluginReader;
-use super::{Context, texture};
+use super::{Context, spectrum, texture};
 use crate::color::{Curve, SpectrumRole, equal_energy_white, spectrum_to_rgb};
 use crate::texture::{Texture, TextureId};
 use crate::xml::{SpectrumValue, Value};
@@ -48,19 +48,37 @@ pub(super) fn texture_if_given<'a>(
     role: Role,
 ) -> Result<Option<TextureId>, SceneError> {
     if let Some(child) = reader.named_child(name) {
-        return texture::translate(context, child.node).map(Some);
+        return match spectrum::curve(context, context.description.node(child.node))? {
+            Some(value) => constant(context, name, role, &value, &child.location),
+            None => texture::translate(context, child.node),
+        }
+        .map(Some);
     }
     let Some(property) = reader.property(name) else { return Ok(None) };
-    let Some(color) = color(&property.value, role) else {
-        let found = property.value.noun();
+    constant(context, name, role, &property.value, &property.location).map(Some)
+}
+
+/// The texture that is the value of the parameter `name` everywhere.
+///
+/// # Errors
+/// A value that is neither a number nor a colour or a spectrum.
+pub(super) fn constant(
+    context: &mut Context<'_>,
+    name: &str,
+    role: Role,
+    value: &Value,
+    location: &Location,
+) -> Result<TextureId, SceneError> {
+    let Some(color) = color(value, role) else {
+        let found = value.noun();
         let message = format!("“{name}” must be a number, a colour or a texture, not a {found}");
-        return Err(SceneError::scene(property.location.clone(), message));
+        return Err(SceneError::scene(location.clone(), message));
     };
-    let color = checked(color, role, name, &property.location, context)?;
-    Ok(Some(match curve(&property.value, role) {
+    let color = checked(color, role, name, location, context)?;
+    Ok(match curve(value, role) {
         Some(curve) => context.textures.constant_curve(color, curve),
         None => context.textures.constant(color),
-    }))
+    })
 }
 
 /// The parameter `name` as a colour that is the same everywhere; grey `default` where it is missing.

@@ -2,7 +2,7 @@
 
 use super::{SceneParts, SurfaceInfo};
 use crate::geometry::ShapeId;
-use crate::light::{Light, LightError, LightId};
+use crate::light::{AreaLight, BeamLight, Light, LightError, LightId};
 use crate::texture::{Texture, TextureId, Textures};
 
 /// Why parts do not make a scene.
@@ -71,8 +71,11 @@ pub(super) fn check(parts: &mut SceneParts) -> Result<(), InvalidScene> {
         }
         if let Some(light) = surface.light {
             match lights.get(light.0 as usize) {
-                Some(Light::Area(light)) if light.shape == ShapeId(shape) => {
-                    if geometry.is_moving(light.shape) {
+                Some(
+                    Light::Area(AreaLight { shape: of_light, .. })
+                    | Light::Beam(BeamLight { shape: of_light, .. }),
+                ) if *of_light == ShapeId(shape) => {
+                    if geometry.is_moving(*of_light) {
                         return Err(InvalidScene::MovingLight(shape));
                     }
                 }
@@ -106,12 +109,13 @@ fn check_light(
         None => Err(InvalidScene::Texture(id.0)),
     };
     match light {
-        Light::Area(area) => {
-            let surface = surfaces.get(area.shape.0 as usize);
+        Light::Area(AreaLight { shape, radiance: texture })
+        | Light::Beam(BeamLight { shape, exitance: texture }) => {
+            let surface = surfaces.get(shape.0 as usize);
             if surface.is_none_or(|surface| surface.light != Some(id)) {
-                return Err(InvalidScene::AreaLight(area.shape.0));
+                return Err(InvalidScene::AreaLight(shape.0));
             }
-            known(area.radiance)
+            known(*texture)
         }
         Light::Point(light) => light.check().map_err(refused),
         Light::Spot(light) => light.texture().map_or(Ok(()), known),

@@ -8,14 +8,14 @@ use etendue_math::glam::Vec3;
 use super::Scene;
 use crate::Color;
 use crate::color::Channels;
-use crate::geometry::{Shape, SurfacePoint};
-use crate::light::{AreaLight, Light, LightBounds, LightId, LightSample};
+use crate::geometry::{Shape, ShapeId, SurfacePoint};
+use crate::light::{Light, LightBounds, LightId, LightSample};
 
 impl Scene {
     /// The shape of an area light, which `new` has found to exist.
     #[inline(always)]
-    fn shape_of(&self, light: AreaLight) -> &Shape {
-        &self.geometry.shapes()[light.shape.0 as usize]
+    fn shape_of(&self, shape: ShapeId) -> &Shape {
+        &self.geometry.shapes()[shape.0 as usize]
     }
 
     /// Light of one source arriving at the point `from`, drawn with two uniforms in `[0, 1)`.
@@ -36,7 +36,7 @@ impl Scene {
         // `?` takes apart what the longer way returns, so that the result need not be in memory.
         Some(match self.lights.get(light.0 as usize)? {
             Light::Area(area) => {
-                let shape = self.shape_of(*area);
+                let shape = self.shape_of(area.shape);
                 area.sample(shape, &self.textures, primitive, from, u, channels)?
             }
             light => {
@@ -57,6 +57,7 @@ impl Scene {
     ) -> Option<LightSample> {
         match light {
             Light::Area(_) => None,
+            Light::Beam(light) => light.sample(self.shape_of(light.shape), &self.textures, from),
             Light::Point(light) => light.sample(from),
             Light::Spot(light) => light.sample(from, &self.textures),
             Light::Projector(light) => light.sample(from, &self.textures),
@@ -71,7 +72,7 @@ impl Scene {
     #[inline(always)]
     pub fn light_pdf_hit(&self, light: LightId, from: Vec3, hit: &SurfacePoint) -> f32 {
         match self.lights.get(light.0 as usize) {
-            Some(Light::Area(area)) => self.shape_of(*area).pdf_from(from, hit),
+            Some(Light::Area(area)) => self.shape_of(area.shape).pdf_from(from, hit),
             _ => 0.0,
         }
     }
@@ -128,10 +129,14 @@ impl Scene {
             let id = LightId(index as u32);
             match light {
                 Light::Area(area) => {
-                    let shape = self.shape_of(*area);
+                    let shape = self.shape_of(area.shape);
                     let of = |i| LightBounds::of_primitive(*area, shape, &self.textures, i);
                     let primitives = 0..shape.primitive_count();
                     list.extend(primitives.filter_map(|i| Some((id, i, of(i)?))));
+                }
+                Light::Beam(light) => {
+                    let shape = self.shape_of(light.shape);
+                    list.push((id, 0, LightBounds::of_beam(*light, shape, &self.textures)));
                 }
                 Light::Point(light) => list.push((id, 0, LightBounds::of_point(light))),
                 Light::Spot(light) => {
@@ -152,7 +157,10 @@ impl Scene {
     pub fn light_power(&self, light: LightId) -> f32 {
         match self.lights.get(light.0 as usize) {
             Some(Light::Area(area)) => {
-                area.power(&self.textures, self.shape_of(*area).area_total())
+                area.power(&self.textures, self.shape_of(area.shape).area_total())
+            }
+            Some(Light::Beam(light)) => {
+                light.power(&self.textures, self.shape_of(light.shape).area_total())
             }
             Some(Light::Point(light)) => light.power(),
             Some(Light::Spot(light)) => light.power(&self.textures),

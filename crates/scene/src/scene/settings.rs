@@ -27,6 +27,34 @@ impl Default for SamplingSettings {
     }
 }
 
+/// What a picture shows.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Shows {
+    /// Radiance, in W sr⁻¹ m⁻².
+    #[default]
+    Light,
+    /// How far the surfaces that are seen are from the near clipping plane, along the rays of the camera and in units of the
+    /// scene; 0 where there is none.
+    Distance,
+}
+
+/// What is known of a pixel beside its colour.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Layer {
+    /// Directional albedo of what is seen first.
+    Albedo,
+    /// Its shading normal.
+    Normal,
+    /// Its depth along the camera's axis.
+    Depth,
+    /// Its position.
+    Position,
+    /// Its texture coordinates.
+    Uv,
+    /// The number of its shape.
+    Shape,
+}
+
 /// How far paths go.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[expect(
@@ -48,6 +76,8 @@ pub struct PathSettings {
     pub volumes: bool,
     /// Whether paths carry wavelengths instead of RGB also where nothing in the scene disperses light.
     pub spectral: bool,
+    /// What the picture shows: where it is no light, nothing above matters.
+    pub shows: Shows,
 }
 
 impl Default for PathSettings {
@@ -60,6 +90,7 @@ impl Default for PathSettings {
             strict_normals: false,
             volumes: false,
             spectral: false,
+            shows: Shows::default(),
         }
     }
 }

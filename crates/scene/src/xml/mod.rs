@@ -23,6 +23,7 @@ pub use description::{
 pub(crate) use nearest::nearest;
 pub(crate) use numbers::{parse_float, parse_list};
 pub use parse::{Leniency, parse_file, parse_text};
+pub(crate) use property::increasing;
 pub use search::SearchPath;
 
 #[cfg(test)]

@@ -199,7 +199,8 @@ impl<'a> Reader<'a> {
                         }
                     }
                 }
-                checked(samples).map_err(|message| SceneError::scene(Location::file(path), message))
+                increasing(samples)
+                    .map_err(|message| SceneError::scene(Location::file(path), message))
             }
             _ => {
                 let message = "<spectrum> needs either “value” or “filename”";
@@ -223,7 +224,7 @@ impl<'a> Reader<'a> {
         let samples: Result<Vec<_>, _> = items(text)
             .map(|item| pair(item).ok_or_else(|| self.not_a("wavelength:value pair", item)))
             .collect();
-        checked(samples?).map_err(|message| self.source.error(self.element, message))
+        increasing(samples?).map_err(|message| self.source.error(self.element, message))
     }
 
     /// One operation of a transform.
@@ -271,7 +272,10 @@ impl<'a> Reader<'a> {
 }
 
 /// A sampled spectrum, whose wavelengths must increase.
-fn checked(samples: Vec<(f64, f64)>) -> Result<SpectrumValue, String> {
+///
+/// # Errors
+/// Fewer than two samples, wavelengths that do not increase.
+pub(crate) fn increasing(samples: Vec<(f64, f64)>) -> Result<SpectrumValue, String> {
     if samples.len() < 2 {
         return Err("a spectrum needs two wavelengths or more".into());
     }

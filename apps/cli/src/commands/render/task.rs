@@ -38,12 +38,15 @@ pub(super) enum Method {
 }
 
 impl Task {
+    /// * `layers`: each once.
+    ///
     /// # Errors
     /// An error is to be estimated from less than two samples.
-    pub(super) fn new(arguments: &Arguments, scene: &Scene) -> Result<Self, Failure> {
-        let mut layers = arguments.aov.clone();
-        layers.sort_unstable();
-        layers.dedup();
+    pub(super) fn new(
+        arguments: &Arguments,
+        layers: Vec<Aov>,
+        scene: &Scene,
+    ) -> Result<Self, Failure> {
         let open_ended = arguments.error.is_some() || arguments.time.is_some();
         let halves = layers.iter().any(|aov| aov.is_of_samples());
         let of_scene = scene.sampling.samples_per_pixel;

@@ -1,4 +1,4 @@
-//! `mask`, `blendbsdf`, `twosided`, `normalmap`, `bumpmap` and `null`.
+//! `mask`, `blendbsdf`, `mixturebsdf`, `twosided`, `normalmap`, `bumpmap` and `null`.
 
 use alloc::format;
 
@@ -9,7 +9,7 @@ use super::translate;
 use crate::SceneError;
 use crate::material::{Material, MaterialId, Perturbation};
 use crate::texture::Texture;
-use crate::xml::Kind;
+use crate::xml::{Kind, parse_list};
 
 /// A surface with holes: `opacity` (0.5) and one model inside.
 pub(super) fn mask<'a>(
@@ -47,6 +47,49 @@ pub(super) fn blend<'a>(
     };
     let parts = [translate(context, first.node)?, translate(context, second.node)?];
     context.add_material(Material::Blend { weight, parts }, location)
+}
+
+/// Any number of models in shares, as in Mitsuba 0.6: `weights` (a list), scaled where they exceed 1 together; what they leave
+/// is absorbed.
+///
+/// As blends of two: after i models the share of the last among them is `wᵢ / (w₁ + … + wᵢ)`.
+pub(super) fn mixture<'a>(
+    reader: &mut PluginReader<'a>,
+    context: &mut Context<'a>,
+) -> Result<MaterialId, SceneError> {
+    let location = &reader.node().location;
+    let Some(weights) = reader.string("weights")? else {
+        return Err(reader.error("weights", "the mixture has no “weights”"));
+    };
+    let weights = match parse_list(weights) {
+        Ok(weights) if weights.iter().all(|&weight| weight >= 0.0) => weights,
+        _ => return Err(reader.error("weights", "“weights” must be numbers that are not negative")),
+    };
+    let parts = reader.children(Kind::Bsdf, context);
+    if parts.len() != weights.len() || parts.is_empty() {
+        let message = format!("{} bsdfs have {} weights", parts.len(), weights.len());
+        return Err(reader.error("weights", message));
+    }
+    let mut mixed = translate(context, parts[0].node)?;
+    let mut total = weights[0];
+    let mut mix = |context: &mut Context<'a>, part, weight: f64, total: f64| {
+        let share = if total > 0.0 { weight / total } else { 0.0 };
+        let weight = context.textures.constant([share as f32; 3].into());
+        context
+            .add_material(Material::Blend { weight, parts: [mixed, part] }, location)
+            .map(|id| mixed = id)
+    };
+    for (part, weight) in parts.iter().zip(weights).skip(1) {
+        let part = translate(context, part.node)?;
+        total += weight;
+        mix(context, part, weight, total)?;
+    }
+    if total < 1.0 {
+        let reflectance = context.textures.constant([0.0; 3].into());
+        let black = context.add_material(Material::Diffuse { reflectance }, location)?;
+        mix(context, black, 1.0 - total, 1.0)?;
+    }
+    Ok(mixed)
 }
 
 /// A model in the frame of another normal: `normalmap`, `flip_invalid_normals` and `use_shadowing_function` (true).

@@ -1,4 +1,4 @@
-//! `diffuse` and `roughdiffuse`.
+//! `diffuse`, `roughdiffuse` and `difftrans`.
 
 use super::super::Context;
 use super::super::reader::PluginReader;
@@ -14,6 +14,17 @@ pub(super) fn diffuse<'a>(
 ) -> Result<MaterialId, SceneError> {
     let reflectance = texture_or(reader, context, "reflectance", Role::Reflectance, 0.5)?;
     context.add_material(Material::Diffuse { reflectance }, &reader.node().location)
+}
+
+/// A sheet that lets light through, evenly scattered, as in Mitsuba 0.6: `transmittance` (0.5). `reflectance` (0, ours).
+pub(super) fn transmitter<'a>(
+    reader: &mut PluginReader<'a>,
+    context: &mut Context<'a>,
+) -> Result<MaterialId, SceneError> {
+    let transmittance = texture_or(reader, context, "transmittance", Role::Reflectance, 0.5)?;
+    let reflectance = texture_or(reader, context, "reflectance", Role::Reflectance, 0.0)?;
+    let material = Material::DiffuseTransmitter { reflectance, transmittance };
+    context.add_material(material, &reader.node().location)
 }
 
 /// Oren–Nayar, as in Mitsuba 0.6: `reflectance` (0.5), `alpha` (0.2), `use_fast_approx` (false),

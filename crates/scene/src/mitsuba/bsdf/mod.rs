@@ -5,6 +5,7 @@ mod compensation;
 mod conductor;
 mod dielectric;
 mod diffuse;
+mod phong;
 mod plastic;
 mod principled;
 mod roughness;
@@ -21,10 +22,13 @@ const BSDFS: &Family<MaterialId> = &[
     ("bumpmap", adapter::bump_map),
     ("conductor", conductor::smooth),
     ("dielectric", dielectric::smooth),
+    ("difftrans", diffuse::transmitter),
     ("diffuse", diffuse::diffuse),
     ("mask", adapter::mask),
+    ("mixturebsdf", adapter::mixture),
     ("normalmap", adapter::normal_map),
     ("null", adapter::null),
+    ("phong", phong::phong),
     ("plastic", plastic::smooth),
     ("principled", principled::solid),
     ("principledthin", principled::thin),

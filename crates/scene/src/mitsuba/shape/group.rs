@@ -26,7 +26,7 @@ pub(super) fn group<'a>(
             return Err(refused("instances"));
         }
         match context.translate(SHAPES, node)? {
-            Item::Surface(surface) if surface.radiance.is_some() => {
+            Item::Surface(surface) if surface.emission.is_some() => {
                 return Err(refused("emitters"));
             }
             Item::Surface(surface) if surface.motion.is_some() => {

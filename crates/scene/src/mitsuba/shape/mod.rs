@@ -11,15 +11,15 @@ use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
 
+use super::emitter::Emission;
 use super::{Context, Family};
 use crate::SceneError;
 use crate::effect::Element;
 use crate::geometry::{GroupId, Motion, Placement, Shape};
-use crate::light::{AreaLight, Light, LightId};
+use crate::light::{AreaLight, BeamLight, Light, LightId};
 use crate::material::MaterialId;
 use crate::medium::Boundary;
 use crate::scene::SurfaceInfo;
-use crate::texture::TextureId;
 use crate::xml::NodeId;
 
 /// The shapes there are.
@@ -53,8 +53,7 @@ pub(super) struct Surface {
     pub(super) shape: Shape,
     pub(super) motion: Option<Motion>,
     pub(super) material: MaterialId,
-    /// Of an area light.
-    pub(super) radiance: Option<TextureId>,
+    pub(super) emission: Option<Emission>,
     pub(super) boundary: Option<Boundary>,
     pub(super) name: String,
 }
@@ -95,13 +94,16 @@ pub(super) fn add(context: &mut Context<'_>, id: NodeId) -> Result<(), SceneErro
 
 /// Adds a shape that is seen where it stands, and the light that it is.
 pub(super) fn add_surface(context: &mut Context<'_>, surface: Surface) -> Option<LightId> {
-    let Surface { shape, motion, material, radiance, boundary, name } = surface;
+    let Surface { shape, motion, material, emission, boundary, name } = surface;
     let shape = match motion {
         Some(motion) => context.geometry.add_moving_shape(shape, motion),
         None => context.geometry.add_shape(shape),
     };
-    let light = radiance.map(|radiance| {
-        context.lights.push(Light::Area(AreaLight { shape, radiance }));
+    let light = emission.map(|emission| {
+        context.lights.push(match emission {
+            Emission::Everywhere(radiance) => Light::Area(AreaLight { shape, radiance }),
+            Emission::Ahead(exitance) => Light::Beam(BeamLight { shape, exitance }),
+        });
         LightId(context.lights.len() as u32 - 1)
     });
     context.surfaces.push(SurfaceInfo { material, light, boundary, name });

@@ -6,6 +6,7 @@ use alloc::vec::Vec;
 
 use etendue_math::glam::DVec3;
 
+use super::super::emitter::Emission;
 use super::super::reader::PluginReader;
 use super::super::{Context, bsdf, emitter, medium};
 use super::{Item, Surface};
@@ -47,30 +48,36 @@ pub(super) fn surface<'a>(
     let location = &reader.node().location;
     let boundary = medium::boundary(reader, context)?;
     let bsdf = reader.child(Kind::Bsdf, context)?;
-    let emission = reader.child(Kind::Emitter, context)?;
-    let radiance = emission.map(|child| emitter::radiance(context, child.node)).transpose()?;
+    let emitter = reader.child(Kind::Emitter, context)?;
+    let emission = emitter.map(|child| emitter::emission(context, child.node)).transpose()?;
     if let Some(motion) = &motion {
         check_motion(&shape, motion).map_err(|e| refused(reader, e))?;
     }
-    if let (Some(_), Some(child)) = (&motion, emission) {
+    if let (Some(_), Some(child)) = (&motion, emitter) {
         let message = "an emitter cannot move yet";
         return Err(SceneError::scene(child.location.clone(), message)
             .help("its shape must stand still while the shutter is open"));
     }
-    if radiance.is_some() && shape.area_total() == 0.0 {
+    if emission.is_some() && shape.area_total() == 0.0 {
         return Err(SceneError::scene(location.clone(), "a light needs an area, this has none"));
+    }
+    if let (Some(Emission::Ahead(_)), Some(child)) = (emission, emitter)
+        && !matches!(shape, Shape::Rectangle(_) | Shape::Disk(_))
+    {
+        let message = "only a rectangle or a disk can emit along its normal";
+        return Err(SceneError::scene(child.location.clone(), message));
     }
     let material = match bsdf {
         Some(child) => bsdf::translate(context, child.node)?,
         None => {
-            let albedo = if radiance.is_some() { 0.0 } else { 0.5 };
+            let albedo = if emission.is_some() { 0.0 } else { 0.5 };
             let reflectance = context.textures.constant([albedo; 3].into());
             context.add_material(Material::Diffuse { reflectance }, location)?
         }
     };
     let shape = with_attributes_of(material, shape, reader, context)?;
     let name = reader.node().id.clone().unwrap_or(name);
-    Ok(Item::Surface(Surface { shape, motion, material, radiance, boundary, name }))
+    Ok(Item::Surface(Surface { shape, motion, material, emission, boundary, name }))
 }
 
 /// Refuses a motion that would make another kind of shape of it, or lead out of range.

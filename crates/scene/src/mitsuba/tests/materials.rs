@@ -1,6 +1,10 @@
 //! Materials and what they are made of.
 
+use etendue_brdf::Bsdf;
+
 use super::*;
+use crate::color::Primaries;
+use crate::material::Side;
 
 #[test]
 fn every_bsdf_is_translated() {
@@ -44,6 +48,75 @@ fn every_bsdf_is_translated() {
         },
     );
     is("<bsdf type=\"null\"/>", |m| matches!(m, Material::Null));
+    is("<bsdf type=\"phong\"/>", |m| matches!(m, Material::Phong { .. }));
+    is("<bsdf type=\"difftrans\"/>", |m| matches!(m, Material::DiffuseTransmitter { .. }));
+}
+
+#[test]
+fn a_mixture_is_made_of_blends() {
+    let part = |value: f64| {
+        format!("<bsdf type=\"diffuse\"><float name=\"reflectance\" value=\"{value}\"/></bsdf>")
+    };
+    for (weights, expected) in [
+        ("0.5, 0.25, 0.25", 0.5 * 0.2 + 0.25 * 0.4 + 0.25 * 0.8),
+        // What is left is absorbed; what is too much is scaled.
+        ("0.2 0.3 0.1", 0.2 * 0.2 + 0.3 * 0.4 + 0.1 * 0.8),
+        ("2 1 1", 0.5 * 0.2 + 0.25 * 0.4 + 0.25 * 0.8),
+        ("0 0 1", 0.8),
+    ] {
+        let bsdf = format!(
+            "<bsdf type=\"mixturebsdf\"><string name=\"weights\" value=\"{weights}\"/>{}{}{}</bsdf>",
+            part(0.2),
+            part(0.4),
+            part(0.8)
+        );
+        let (_, loaded) = material(&bsdf);
+        let scene = &loaded.scene;
+        let id = scene.surfaces[0].material;
+        let model =
+            scene.materials.prepare(id, &scene.textures, [0.0; 2].into(), Side::Front, Primaries);
+        let albedo = model.albedo(Vec3::Z).expect("of diffuse parts").r;
+        // Weights of single precision.
+        assert!((f64::from(albedo) - expected).abs() < 1e-6, "{weights}: {albedo} {expected}");
+    }
+    refused(
+        "<bsdf type=\"mixturebsdf\"><string name=\"weights\" value=\"1 2\"/><bsdf type=\"null\"/></bsdf>",
+        2,
+        "1 bsdfs have 2 weights",
+    );
+}
+
+#[test]
+fn spectra_may_be_plugins() {
+    let mean = |spectrum: &str| {
+        let (material, loaded) = material(&format!("<bsdf type=\"diffuse\">{spectrum}</bsdf>"));
+        let Material::Diffuse { reflectance } = material else { panic!("{material:?}") };
+        loaded.scene.textures.mean(reflectance)
+    };
+    let inline =
+        mean("<spectrum name=\"reflectance\" value=\"400:0.1, 500:0.2, 600:0.5, 700:0.4\"/>");
+    let irregular = "<spectrum type=\"irregular\" name=\"reflectance\">\
+        <string name=\"wavelengths\" value=\"400, 500, 600, 700\"/>\
+        <string name=\"values\" value=\"0.1, 0.2, 0.5, 0.4\"/></spectrum>";
+    let regular = "<spectrum type=\"regular\" name=\"reflectance\">\
+        <float name=\"wavelength_min\" value=\"400\"/><float name=\"wavelength_max\" value=\"700\"/>\
+        <string name=\"values\" value=\"0.1, 0.2, 0.5, 0.4\"/></spectrum>";
+    assert_eq!(mean(irregular), inline);
+    assert_eq!(mean(regular), inline);
+    let black_body = |temperature: f64| {
+        mean(&format!(
+            "<texture type=\"checkerboard\" name=\"reflectance\"><spectrum type=\"blackbody\" \
+             name=\"color0\"><float name=\"temperature\" value=\"{temperature}\"/></spectrum></texture>"
+        ))
+    };
+    let [warm, cold] = [1200.0, 12000.0].map(black_body);
+    assert!(warm.r > warm.b && cold.b >= cold.r, "{warm:?} {cold:?}");
+    refused(
+        "<bsdf type=\"diffuse\"><spectrum type=\"irregular\" name=\"reflectance\">\
+         <string name=\"wavelengths\" value=\"400 300\"/><string name=\"values\" value=\"1 1\"/></spectrum></bsdf>",
+        2,
+        "wavelength 300 does not lie above 400",
+    );
 }
 
 #[test]
