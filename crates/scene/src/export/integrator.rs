@@ -7,11 +7,12 @@ use alloc::vec::Vec;
 use super::element::Element;
 use super::exporter::Exporter;
 use super::values::{boolean, integer, string};
+use crate::light::Light;
 use crate::medium::Medium;
 use crate::scene::{Layer, PathSettings, Shows};
 
 /// The integrator of a scene: of those that see media the one without heavy tails where colours of light are taken away
-/// differently.
+/// differently, of the others the one that sees beams where there are some.
 pub(super) fn element(exporter: &mut Exporter<'_>) -> Element {
     let scene = exporter.scene;
     let PathSettings {
@@ -29,7 +30,9 @@ pub(super) fn element(exporter: &mut Exporter<'_>) -> Element {
     }
     let in_use = scene.media_in_use();
     let mut media = in_use.iter().filter_map(|&id| scene.media.get(id));
+    let has_beams = scene.lights.iter().any(|light| matches!(light, Light::Beam(_)));
     let (kind, roulette) = match volumes {
+        false if has_beams => ("ptracer", roulette_depth),
         false => ("path", roulette_depth),
         // Theirs is the last number of edges at which no path is ended by chance.
         true if media.any(Medium::is_coloured) => ("volpathmis", roulette_depth.saturating_sub(1)),

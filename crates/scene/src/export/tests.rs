@@ -56,7 +56,7 @@ fn text_of_any_kind_is_well_formed() {
     let Export { xml, .. } = export(scene(body), &options).expect("a conversion");
     let document = roxmltree::Document::parse(&xml).expect("well-formed");
     let shape = document.descendants().find(|node| node.has_tag_name("shape"));
-    assert_eq!(shape.and_then(|node| node.attribute("id")), Some("1-----x"));
+    assert_eq!(shape.and_then(|node| node.attribute("id")), Some("1----x"));
 }
 
 #[test]
@@ -206,6 +206,31 @@ fn spectra_are_curves_where_paths_carry_wavelengths_and_colours_elsewhere() {
     assert_eq!(losses, [Loss::Effect(crate::Effect::SpectralColours)].into());
     assert!(xml.contains("<spectrum name=\"eta\" value=\"400:1.5, 700:2.5\"/>"), "{xml}");
     assert!(xml.contains("<spectrum name=\"radiance\" value=\"2\"/>"), "{xml}");
+}
+
+#[test]
+fn integrators_are_those_that_see_what_there_is() {
+    let beam = "<shape type=\"disk\"><emitter type=\"directionalarea\"/></shape>";
+    let medium = sphere_of("<medium name=\"interior\" type=\"homogeneous\"/>");
+    let colour = "<rgb name=\"sigma_t\" value=\"0.1 0.2 0.3\"/>";
+    let coloured = medium.replace("/></shape>", &format!(">{colour}</medium></shape>"));
+    let volpath = |body: &str| format!("<integrator type=\"volpath\"/>{body}");
+    for (body, kind) in [
+        (sphere_of(""), "path"),
+        (beam.into(), "ptracer"),
+        (volpath(&medium), "volpath"),
+        (volpath(&coloured), "volpathmis"),
+        ("<integrator type=\"depth\"/>".into(), "depth"),
+    ] {
+        let text = xml(&body);
+        assert!(text.contains(&format!("<integrator type=\"{kind}\"")), "{text}");
+        // Roulette begins where it did.
+        assert!(!text.contains("rr_depth"), "{text}");
+    }
+    let layers = vec![crate::scene::Layer::Uv, crate::scene::Layer::Normal];
+    let options = ExportOptions { layers, ..ExportOptions::default() };
+    let text = export(scene(""), &options).expect("a conversion").xml;
+    assert!(text.contains("<string name=\"aovs\" value=\"uv:uv,sh_normal:sh_normal\"/>"), "{text}");
 }
 
 #[test]
