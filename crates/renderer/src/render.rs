@@ -248,12 +248,12 @@ impl<'a> Renderer<'a> {
     ) -> (Ray, f32) {
         let film = filter.sample(points.sample_2d(Dimension::camera(Decision::Film)));
         let camera = &self.scene.camera;
-        let lens = if camera.has_lens() {
+        let lens = if camera.samples_lens() {
             points.sample_2d(Dimension::camera(Decision::Lens))
         } else {
             [0.0; 2]
         };
-        (camera.ray_at(film.position, lens, time), film.weight)
+        (camera.ray_at(film.position, lens, time), film.weight * camera.weight())
     }
 }
 

@@ -1,16 +1,20 @@
 //! Cameras.
 
 mod field_of_view;
+mod meter;
 mod sight;
 
-use etendue_math::Vector3;
+use alloc::sync::Arc;
+
 use etendue_math::glam::{Vec2, Vec3};
+use etendue_math::{Real, Vector3};
 use etendue_sampling::warp::disk;
 
 pub use field_of_view::{FieldOfView, FovAxis};
 pub use sight::Sight;
 
-use crate::geometry::{Motion, Ray, Transform};
+use crate::geometry::{Motion, Ray, Shape, Transform};
+use meter::Meter;
 
 /// How directions become points of the picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,6 +38,10 @@ pub enum Projection {
     },
     /// Parallel rays; the film is 2 units wide before the camera's own scaling.
     Orthographic,
+    /// A single ray, from the origin of the camera along its axis: it measures radiance. There are no clipping planes.
+    RadianceMeter,
+    /// Rays from a surface into the half-space before it: it measures irradiance. Made by [`Camera::irradiance_meter`].
+    IrradianceMeter,
 }
 
 /// Why a camera is refused.
@@ -65,6 +73,9 @@ pub enum CameraError {
     /// An offset that is NaN or infinite.
     #[error("the offset of the principal point is not finite")]
     PrincipalPoint,
+    /// An irradiance meter without area, or one that is to be made without its surface.
+    #[error("an irradiance meter needs a surface that has an area")]
+    Surface,
     /// The transform maps the optical axis to nothing that has a direction.
     #[error("the camera's transform leaves no direction to look in")]
     Transform,
@@ -106,11 +117,13 @@ pub struct Camera {
     optics: Optics,
 }
 
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 enum Optics {
     Pinhole,
     Lens { radius: f32, focus_distance: f32 },
     Parallel { direction: Vec3 },
+    Single { direction: Vec3 },
+    Meter(Arc<Meter>),
 }
 
 impl Camera {
@@ -149,6 +162,8 @@ impl Camera {
                 (field_of_view.half_width(film_size)?, [0.0; 2], lens)
             }
             Projection::Orthographic => (1.0, [0.0; 2], Optics::Parallel { direction: axis }),
+            Projection::RadianceMeter => (1.0, [0.0; 2], Optics::Single { direction: axis }),
+            Projection::IrradianceMeter => return Err(CameraError::Surface),
         };
         if !(offset_x.is_finite() && offset_y.is_finite()) {
             return Err(CameraError::PrincipalPoint);
@@ -172,6 +187,28 @@ impl Camera {
         })
     }
 
+    /// What measures the irradiance on the front of a shape in the world, in the mean over its area: π times the mean of
+    /// the radiance along rays that leave it in proportion to their cosine. The film stands for the area.
+    ///
+    /// # Errors
+    /// A shape without area, a film without pixels.
+    pub fn irradiance_meter(shape: Shape, film_size: [u32; 2]) -> Result<Self, CameraError> {
+        let meter = Meter::new(shape).ok_or(CameraError::Surface)?;
+        let camera =
+            Self::new(Projection::Orthographic, Transform::IDENTITY, 1e-3, 1.0, film_size)?;
+        let optics = Optics::Meter(Arc::new(meter));
+        Ok(Self { projection: Projection::IrradianceMeter, optics, ..camera })
+    }
+
+    /// What the radiance along rays is multiplied by: π of an irradiance meter, 1 of everything else.
+    #[inline]
+    pub fn weight(&self) -> f32 {
+        match self.optics {
+            Optics::Meter(_) => f32::PI,
+            _ => 1.0,
+        }
+    }
+
     /// The same on its way while the shutter is open.
     ///
     /// # Errors
@@ -184,9 +221,10 @@ impl Camera {
 
     /// The same standing still at another place.
     fn placed(&self, to_world: &Transform, axis: Vec3) -> Self {
-        let optics = match self.optics {
+        let optics = match &self.optics {
             Optics::Parallel { .. } => Optics::Parallel { direction: axis },
-            optics => optics,
+            Optics::Single { .. } => Optics::Single { direction: axis },
+            optics => optics.clone(),
         };
         let Self { projection, near, far, center, step, .. } = *self;
         Self { projection, to_world: *to_world, motion: None, near, far, center, step, optics }
@@ -216,24 +254,39 @@ impl Camera {
     ///
     /// * `film`: column and row in pixels of the whole film; the first pixel, at the top left,
     ///   covers `[0, 1)²`.
-    /// * `lens`: two uniforms in `[0, 1)`; only a thin lens uses them.
+    /// * `lens`: two uniforms in `[0, 1)`; only a thin lens and an irradiance meter use them.
     #[inline]
     pub fn ray(&self, film: [f32; 2], lens: [f32; 2]) -> Ray {
         let at = (Vec2::from_array(film) - self.center) * self.step;
-        match self.optics {
+        match &self.optics {
             Optics::Pinhole => self.ray_along(Vec3::ZERO, at.extend(1.0)),
             Optics::Lens { radius, focus_distance } => {
                 let [x, y] = disk::from_square(lens);
-                let aperture = Vec2::new(x, y) * radius;
-                let focus = at * focus_distance;
-                self.ray_along(aperture.extend(0.0), (focus - aperture).extend(focus_distance))
+                let aperture = Vec2::new(x, y) * *radius;
+                let focus = at * *focus_distance;
+                self.ray_along(aperture.extend(0.0), (focus - aperture).extend(*focus_distance))
             }
             Optics::Parallel { direction } => Ray {
                 origin: self.to_world.point(at.extend(self.near)),
-                direction,
+                direction: *direction,
                 t_max: self.far - self.near,
             },
+            Optics::Single { direction } => Ray::new(self.position(), *direction),
+            Optics::Meter(meter) => self.ray_of(meter, film, lens),
         }
+    }
+
+    /// The ray of an irradiance meter; one that meets nothing where the meter has none.
+    #[inline(never)]
+    fn ray_of(&self, meter: &Meter, film: [f32; 2], direction: [f32; 2]) -> Ray {
+        // The middle of the film is the centre: no shift of the axis is possible.
+        let on = (Vec2::from_array(film) / (self.center * 2.0))
+            .clamp(Vec2::ZERO, Vec2::splat(f32::ONE_MINUS_EPSILON));
+        meter.ray(on.to_array(), direction).unwrap_or(Ray {
+            origin: Vec3::ZERO,
+            direction: Vec3::Z,
+            t_max: 0.0,
+        })
     }
 
     /// The clipped ray from a point of the plane z = 0 in a direction with positive z, both in
@@ -263,7 +316,13 @@ impl Camera {
         from_camera.dot(axis) / Vector3::length(axis)
     }
 
-    /// Whether rays depend on the point of the lens.
+    /// Whether rays depend on the two uniforms that stand for a point of the lens.
+    #[inline]
+    pub fn samples_lens(&self) -> bool {
+        matches!(self.optics, Optics::Lens { .. } | Optics::Meter(_))
+    }
+
+    /// Whether what is out of focus is blurred.
     #[inline]
     pub fn has_lens(&self) -> bool {
         matches!(self.optics, Optics::Lens { .. })
@@ -282,8 +341,7 @@ impl Camera {
 
     /// The same with everything in focus.
     pub(crate) fn without_lens(self) -> Self {
-        let optics = if self.has_lens() { Optics::Pinhole } else { self.optics };
-        Self { optics, ..self }
+        if self.has_lens() { Self { optics: Optics::Pinhole, ..self } } else { self }
     }
 
     /// What kind of camera it is, in words.
@@ -292,6 +350,8 @@ impl Camera {
             Optics::Pinhole => "perspective",
             Optics::Lens { .. } => "thin lens",
             Optics::Parallel { .. } => "orthographic",
+            Optics::Single { .. } => "radiance meter",
+            Optics::Meter(_) => "irradiance meter",
         }
     }
 

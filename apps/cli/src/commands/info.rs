@@ -86,6 +86,7 @@ fn material_name(material: &Material) -> &'static str {
         Material::Plastic { .. } => "plastic",
         Material::Principled(_) => "principled",
         Material::PrincipledThin(_) => "thin principled",
+        Material::Coated { .. } => "coated",
         Material::Mask { .. } => "mask",
         Material::Blend { .. } => "blend",
         Material::NormalMap { .. } => "normal map",

@@ -54,6 +54,7 @@ pub(super) fn of_lobes(material: &mut Material) -> impl Iterator<Item = (Effect,
         },
         Material::DiffuseTransmitter { transmittance, .. } => (ROUGH, None, Some(transmittance)),
         Material::Phong { specular_reflectance, .. } => (ROUGH, Some(specular_reflectance), None),
+        Material::Coated { specular_reflectance, .. } => (DELTA, Some(specular_reflectance), None),
         Material::Principled(textures) => (ROUGH, None, textures.spec_trans.as_mut()),
         Material::PrincipledThin(textures) => (ROUGH, None, textures.spec_trans.as_mut()),
         Material::Diffuse { .. }

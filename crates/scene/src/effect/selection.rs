@@ -125,6 +125,7 @@ fn changed(
     let has_base = matches!(
         material,
         Material::DiffuseTransmitter { .. }
+            | Material::Coated { .. }
             | Material::Phong { .. }
             | Material::Plastic { .. }
             | Material::Principled(_)

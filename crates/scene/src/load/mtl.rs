@@ -250,13 +250,13 @@ fn texture(rest: &[u8], mtl: &Path) -> (MtlMap, bool) {
         file = tail;
         let mut numbers = [None; 3];
         let mut word: &[u8] = b"";
-        for argument in 0..required + optional {
+        for (argument, slot) in numbers.iter_mut().enumerate().take(required + optional) {
             let (value, after) = statement(file);
             let number = real(value);
             if argument >= required && number.is_err() {
                 break;
             }
-            numbers[argument] = number.ok();
+            *slot = number.ok();
             word = value;
             file = after;
         }

@@ -1,12 +1,14 @@
 //! Materials that are made of others at every point.
 
-use etendue_brdf::{Blend, Bsdf, Lobes, Opacity, Sample};
+use etendue_brdf::{Blend, Bsdf, Ior, Lobes, Opacity, Reflectance, Sample};
+use etendue_math::Spectrum;
 use etendue_math::glam::Vec3;
 
+use super::coated::Coated;
 use super::perturbed::Perturbed;
 use super::{MaterialId, Materials, PreparedBsdf, Side};
 use crate::color::Channels;
-use crate::texture::{TexturePoint, Textures};
+use crate::texture::{TextureId, TexturePoint, Textures};
 
 /// A material made of others, with what they are to be looked up with.
 ///
@@ -22,8 +24,19 @@ pub struct Composed<'a, C: Channels> {
 pub(super) enum Composition {
     /// Two in shares; the weight is that of the second.
     Blend { parts: [MaterialId; 2], weight: Opacity<f32> },
+    /// One under a layer.
+    Coated { nested: MaterialId, coat: Coat },
     /// One that is looked at in another frame.
     Perturbed { nested: MaterialId, perturbed: Perturbed },
+}
+
+/// A layer on a surface, before its textures are looked up.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Coat {
+    pub(super) eta: Ior<f32>,
+    pub(super) absorption: TextureId,
+    pub(super) thickness: f32,
+    pub(super) specular_reflectance: TextureId,
 }
 
 /// What parts are prepared from.
@@ -36,6 +49,15 @@ pub(super) struct Parts<'a, C: Channels> {
 }
 
 impl<'a, C: Channels> Parts<'a, C> {
+    fn coated(&self, coat: Coat) -> Coated<C::Color> {
+        let color = |id| self.textures.matter(id, self.point, self.channels);
+        Coated {
+            eta: coat.eta,
+            absorption: color(coat.absorption).map(|a| (a * coat.thickness).min(f32::MAX)),
+            specular_reflectance: Reflectance::clamped(color(coat.specular_reflectance)).value(),
+        }
+    }
+
     /// A part seen from the side of `wo`, a direction in its own frame.
     fn part(&self, id: MaterialId, wo: Vec3) -> PreparedBsdf<'a, C> {
         self.materials.prepare(id, self.textures, self.point, Side::of(wo), self.channels)
@@ -69,11 +91,13 @@ impl<C: Channels> Bsdf for Composed<'_, C> {
     fn lobes(&self) -> Lobes {
         let [front, back] = [Vec3::Z, -Vec3::Z].map(|wo| match self.how {
             Composition::Blend { parts, weight } => self.blend(parts, weight, wo).lobes(),
-            Composition::Perturbed { nested, .. } => self.parts.part(nested, wo).lobes(),
+            Composition::Coated { nested, .. } | Composition::Perturbed { nested, .. } => {
+                self.parts.part(nested, wo).lobes()
+            }
         });
         Lobes {
             continuous: front.continuous || back.continuous,
-            delta: front.delta || back.delta,
+            delta: front.delta || back.delta || matches!(self.how, Composition::Coated { .. }),
             transmission: front.transmission || back.transmission || self.may_leak(),
         }
     }
@@ -81,6 +105,9 @@ impl<C: Channels> Bsdf for Composed<'_, C> {
     fn eval_pdf(&self, wo: Vec3, wi: Vec3) -> (C::Color, f32) {
         match self.how {
             Composition::Blend { parts, weight } => self.blend(parts, weight, wo).eval_pdf(wo, wi),
+            Composition::Coated { nested, coat } => {
+                self.parts.coated(coat).eval_pdf(&self.parts.part(nested, wo), wo, wi)
+            }
             Composition::Perturbed { nested, perturbed } => {
                 let seen = perturbed.seen(wo);
                 seen.eval_pdf(&self.parts.part(nested, seen.wo()), wi)
@@ -93,6 +120,9 @@ impl<C: Channels> Bsdf for Composed<'_, C> {
             Composition::Blend { parts, weight } => {
                 self.blend(parts, weight, wo).sample(wo, u_lobe, u)
             }
+            Composition::Coated { nested, coat } => {
+                self.parts.coated(coat).sample(&self.parts.part(nested, wo), wo, u_lobe, u)
+            }
             Composition::Perturbed { nested, perturbed } => {
                 let seen = perturbed.seen(wo);
                 seen.sample(&self.parts.part(nested, seen.wo()), u_lobe, u)
@@ -100,11 +130,11 @@ impl<C: Channels> Bsdf for Composed<'_, C> {
         }
     }
 
-    /// None in another frame, where part of the light goes to the wrong side.
+    /// None under a layer, and in another frame, where part of the light goes to the wrong side.
     fn albedo(&self, wo: Vec3) -> Option<C::Color> {
         match self.how {
             Composition::Blend { parts, weight } => self.blend(parts, weight, wo).albedo(wo),
-            Composition::Perturbed { .. } => None,
+            Composition::Coated { .. } | Composition::Perturbed { .. } => None,
         }
     }
 
@@ -112,6 +142,7 @@ impl<C: Channels> Bsdf for Composed<'_, C> {
     fn pass_through(&self, wo: Vec3) -> C::Color {
         match self.how {
             Composition::Blend { parts, weight } => self.blend(parts, weight, wo).pass_through(wo),
+            Composition::Coated { .. } => C::Color::black(),
             Composition::Perturbed { nested, .. } => self.parts.part(nested, wo).pass_through(wo),
         }
     }

@@ -3,6 +3,7 @@
 //! A [`Material`] names textures; [`Materials::prepare`] looks them up at one point and gives the
 //! reflection model there, a [`PreparedBsdf`].
 
+mod coated;
 mod compensated;
 mod composed;
 mod dispersive;
@@ -129,6 +130,19 @@ pub enum Material {
         nested: MaterialId,
         /// Where that light goes.
         how: Compensation,
+    },
+    /// A surface under a smooth dielectric layer.
+    Coated {
+        /// Index of the layer relative to what is above it.
+        eta: Ior<f32>,
+        /// Absorption coefficient of the layer, per unit of its thickness.
+        absorption: TextureId,
+        /// Thickness of the layer, which only its absorption depends on.
+        thickness: f32,
+        /// Factor of light reflected by the interface, 1 physically.
+        specular_reflectance: TextureId,
+        /// The surface, an opaque one.
+        nested: MaterialId,
     },
     /// A surface that is partly not there.
     Mask {
@@ -257,6 +271,9 @@ pub enum MaterialError {
     /// It puts something that light can pass on one side of a surface.
     #[error("only an opaque material can be used on one side of a surface")]
     TransmissiveSide,
+    /// It puts a layer on something that light can pass.
+    #[error("only an opaque material, of one side, can have a coating")]
+    TransmissiveBase,
 }
 
 /// All materials of a scene.
@@ -269,8 +286,8 @@ impl Materials {
     /// Adds a material.
     ///
     /// # Errors
-    /// A family that the program was compiled without; a reference to a material that was not added before; a [`Material::TwoSided`] of materials
-    /// that transmit, are masked or are two-sided themselves; a [`Material::BumpMap`] inside another or inside a
+    /// A family that the program was compiled without; a reference to a material that was not added before; a [`Material::TwoSided`]
+    /// or [`Material::Coated`] of materials that transmit, are masked or are two-sided themselves; a [`Material::BumpMap`] inside another or inside a
     /// [`Material::NormalMap`].
     pub fn add(&mut self, material: Material) -> Result<MaterialId, MaterialError> {
         if let Some((family, false)) = material.family() {
@@ -290,6 +307,12 @@ impl Materials {
             Material::Blend { parts, .. } => {
                 for part in parts {
                     self.get(part).ok_or(MaterialError::Unknown(part.0))?;
+                }
+            }
+            Material::Coated { nested, .. } => {
+                let base = self.get(nested).ok_or(MaterialError::Unknown(nested.0))?;
+                if !self.is_one_sided(base) {
+                    return Err(MaterialError::TransmissiveBase);
                 }
             }
             Material::TwoSided { front, back } => {
@@ -312,6 +335,7 @@ impl Materials {
             Material::Diffuse { .. }
             | Material::RoughDiffuse { .. }
             | Material::Phong { .. }
+            | Material::Coated { .. }
             | Material::Conductor { .. }
             | Material::Plastic { .. } => true,
             Material::Principled(textures) => textures.spec_trans.is_none(),
@@ -424,6 +448,9 @@ impl Material {
             }
             Self::Principled(ref textures) => textures.textures(),
             Self::PrincipledThin(ref textures) => textures.textures(),
+            Self::Coated { absorption, specular_reflectance, .. } => {
+                Vec::from([absorption, specular_reflectance])
+            }
             Self::Mask { opacity, .. } => Vec::from([opacity]),
             Self::Blend { weight, .. } => Vec::from([weight]),
             Self::NormalMap { normal, .. } => Vec::from([normal]),
@@ -451,9 +478,10 @@ impl Material {
             Self::Principled(_) | Self::PrincipledThin(_) => {
                 ("principled", cfg!(feature = "principled"))
             }
-            Self::Blend { .. } | Self::NormalMap { .. } | Self::BumpMap { .. } => {
-                ("composed", cfg!(feature = "composed"))
-            }
+            Self::Coated { .. }
+            | Self::Blend { .. }
+            | Self::NormalMap { .. }
+            | Self::BumpMap { .. } => ("composed", cfg!(feature = "composed")),
             Self::Diffuse { .. }
             | Self::RoughDiffuse { .. }
             | Self::DiffuseTransmitter { .. }
@@ -481,6 +509,7 @@ impl Material {
     pub fn nested(&self) -> impl Iterator<Item = MaterialId> + use<> {
         let parts = match *self {
             Self::Compensated { nested, .. }
+            | Self::Coated { nested, .. }
             | Self::Mask { nested, .. }
             | Self::NormalMap { nested, .. }
             | Self::BumpMap { nested, .. } => [Some(nested), None],

@@ -9,7 +9,7 @@ use etendue_brdf::{
 
 use etendue_math::glam::Vec3;
 
-use super::composed::{Composed, Composition, Parts};
+use super::composed::{Coat, Composed, Composition, Parts};
 use super::model::{PrincipledModel, PrincipledThinModel};
 use super::perturbed::Perturbed;
 use super::prepared::Placed;
@@ -200,7 +200,31 @@ fn interface<'a, C: Channels>(
     }
 }
 
-/// The model of a material that is made of no others.
+/// How a material is made of others; `None` for one that is not.
+fn composition<C: Channels>(material: &Material, at: At<'_, C>) -> Option<Composition> {
+    Some(match *material {
+        Material::Blend { weight, parts } => {
+            let weight = Opacity::clamped(at.value(weight));
+            Composition::Blend { parts, weight }
+        }
+        Material::Coated { eta, absorption, thickness, specular_reflectance, nested } => {
+            let coat = Coat { eta, absorption, thickness, specular_reflectance };
+            Composition::Coated { nested, coat }
+        }
+        Material::NormalMap { normal, options, nested } => {
+            let color = at.textures.color(normal, at.point);
+            let normal = Vec3::from(color.to_array()) * 2.0 - Vec3::ONE;
+            Composition::Perturbed { nested, perturbed: Perturbed { normal, options } }
+        }
+        Material::BumpMap { height, scale, options, nested } => {
+            let normal = at.bumped(height, scale);
+            Composition::Perturbed { nested, perturbed: Perturbed { normal, options } }
+        }
+        _ => return None,
+    })
+}
+
+/// The model of a material.
 #[inline]
 fn model<'a, C: Channels>(material: Option<&'a Material>, at: At<'a, C>) -> Model<'a, C> {
     let Some(material) = material else { return Model::Null(Null::new()) };
@@ -293,18 +317,11 @@ fn model<'a, C: Channels>(material: Option<&'a Material>, at: At<'a, C>) -> Mode
         Material::PrincipledThin(ref textures) => {
             Model::PrincipledThin(PrincipledThinModel(textures.at(at)))
         }
-        Material::Blend { weight, parts } => {
-            let weight = Opacity::clamped(at.value(weight));
-            at.composed(Composition::Blend { parts, weight })
-        }
-        Material::NormalMap { normal, options, nested } => {
-            let color = at.textures.color(normal, at.point);
-            let normal = Vec3::from(color.to_array()) * 2.0 - Vec3::ONE;
-            at.composed(Composition::Perturbed { nested, perturbed: Perturbed { normal, options } })
-        }
-        Material::BumpMap { height, scale, options, nested } => {
-            let normal = at.bumped(height, scale);
-            at.composed(Composition::Perturbed { nested, perturbed: Perturbed { normal, options } })
+        Material::Blend { .. }
+        | Material::Coated { .. }
+        | Material::NormalMap { .. }
+        | Material::BumpMap { .. } => {
+            composition(material, at).map_or(Model::Null(Null::new()), |how| at.composed(how))
         }
         // A mask or a two-sided material in a place for simple ones: `add` refuses it.
         Material::Mask { .. } | Material::TwoSided { .. } | Material::Null => {

@@ -8,7 +8,8 @@ use std::path::PathBuf;
 use super::LoadOptions;
 use super::origins::Origins;
 use super::reader::PluginReader;
-use crate::geometry::{GeometryBuilder, GroupId, Shutter};
+use super::sensor::Sensor;
+use crate::geometry::{GeometryBuilder, GroupId, Shape, Shutter};
 use crate::light::Light;
 use crate::material::{Material, MaterialId, Materials};
 use crate::medium::{Media, MediumId};
@@ -42,6 +43,10 @@ pub(super) struct Context<'a> {
     pub(super) media: Media,
     /// What the picture is to have beside its colours.
     pub(super) layers: Vec<Layer>,
+    /// The shape whose irradiance meter is translated.
+    pub(super) metered: Option<Shape>,
+    /// The first sensor inside a shape.
+    pub(super) meter: Option<Sensor>,
     /// Where what stands above is described.
     pub(super) origins: Origins,
     /// What was translated already, since many may refer to it.
@@ -66,6 +71,8 @@ impl<'a> Context<'a> {
             lights: Vec::new(),
             media: Media::default(),
             layers: Vec::new(),
+            metered: None,
+            meter: None,
             origins: Origins::default(),
             texture_ids: BTreeMap::new(),
             material_ids: BTreeMap::new(),

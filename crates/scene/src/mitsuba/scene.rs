@@ -41,7 +41,12 @@ pub(super) fn scene(mut context: Context<'_>) -> Result<LoadedScene, SceneError>
         Some(child) => integrator::translate(&mut context, child.node)?,
         None => PathSettings::default(),
     };
+    if let (Some(child), Some(_)) = (sensors.first(), &context.meter) {
+        let message = "the irradiance meter inside a shape is not used beside this sensor";
+        context.warn(child.location.clone(), message);
+    }
     let sensor = match sensors[..] {
+        [] if context.meter.is_some() => context.meter.take(),
         [] => {
             context.warn(root.location.clone(), "there is no sensor: the camera frames the scene");
             None

@@ -9,7 +9,7 @@ use crate::SceneError;
 use crate::camera::{Camera, Projection};
 use crate::effect::Element;
 use crate::film::Film;
-use crate::geometry::Shutter;
+use crate::geometry::{Shutter, Transform};
 use crate::scene::SamplingSettings;
 use crate::xml::NodeId;
 
@@ -21,8 +21,13 @@ pub(super) struct Sensor {
 }
 
 /// The sensors there are.
-const SENSORS: &Family<Sensor> =
-    &[("orthographic", orthographic), ("perspective", perspective), ("thinlens", thin_lens)];
+const SENSORS: &Family<Sensor> = &[
+    ("irradiancemeter", irradiance_meter),
+    ("orthographic", orthographic),
+    ("perspective", perspective),
+    ("radiancemeter", radiance_meter),
+    ("thinlens", thin_lens),
+];
 
 /// Mitsuba's clipping distances.
 const NEAR_CLIP: f64 = 1e-2;
@@ -72,6 +77,51 @@ fn orthographic<'a>(
 ) -> Result<Sensor, SceneError> {
     reader.ignore(&["focus_distance"]);
     sensor(reader, context, Projection::Orthographic)
+}
+
+/// A single ray: `origin` and `direction`, or `to_world`, whose z axis it is.
+fn radiance_meter<'a>(
+    reader: &mut PluginReader<'a>,
+    context: &mut Context<'a>,
+) -> Result<Sensor, SceneError> {
+    let given = (reader.vector("origin")?, reader.vector("direction")?);
+    let (Some(origin), Some(direction)) = given else {
+        if let (Some(_), None) | (None, Some(_)) = given {
+            return Err(reader.error("origin", "“origin” and “direction” need each other"));
+        }
+        return sensor(reader, context, Projection::RadianceMeter);
+    };
+    if reader.has("to_world") {
+        return Err(reader.error("origin", "give either “origin” and “direction” or “to_world”"));
+    }
+    let to_world =
+        Transform::look_at(origin, origin + direction, direction.any_orthogonal_vector())
+            .map_err(|_| reader.error("direction", "the direction has no length"))?;
+    let (film, sampling) = (film::of(reader, context)?, sampler::of(reader, context)?);
+    context.media.around_camera = medium::around(reader, context)?;
+    shutter(reader)?;
+    let (near, far) = (NEAR_CLIP as f32, FAR_CLIP as f32);
+    let camera = Camera::new(Projection::RadianceMeter, to_world, near, far, film.size);
+    let camera =
+        camera.map_err(|e| reader.error("direction", format!("{}: {e}", reader.title())))?;
+    Ok(Sensor { camera, film, sampling })
+}
+
+/// The irradiance on the shape that the meter stands in.
+fn irradiance_meter<'a>(
+    reader: &mut PluginReader<'a>,
+    context: &mut Context<'a>,
+) -> Result<Sensor, SceneError> {
+    let refused = |message| SceneError::scene(reader.node().location.clone(), message);
+    let Some(shape) = context.metered.take() else {
+        return Err(refused(format!("{} must stand inside a shape", reader.title())));
+    };
+    let (film, sampling) = (film::of(reader, context)?, sampler::of(reader, context)?);
+    context.media.around_camera = medium::around(reader, context)?;
+    shutter(reader)?;
+    let camera = Camera::irradiance_meter(shape, film.size)
+        .map_err(|e| SceneError::scene(reader.node().location.clone(), format!("{e}")))?;
+    Ok(Sensor { camera, film, sampling })
 }
 
 /// `shutter_open` and `shutter_close` (0), in the time of animations.

@@ -4,6 +4,8 @@ use alloc::format;
 use alloc::string::ToString;
 use alloc::vec::Vec;
 
+use etendue_math::Real;
+
 use super::Context;
 use super::reader::PluginReader;
 use super::value::{Role, constant};
@@ -95,7 +97,7 @@ fn black_body(reader: &mut PluginReader<'_>) -> Result<SpectrumValue, SceneError
     let radiance = |nanometres: f64| {
         let wavelength = nanometres * 1e-9;
         let exponent = PLANCK * LIGHT / (wavelength * BOLTZMANN * temperature);
-        1e-9 * 2.0 * PLANCK * LIGHT * LIGHT / wavelength.powi(5) / exponent.exp_m1()
+        1e-9 * 2.0 * PLANCK * LIGHT * LIGHT / Real::powi(wavelength, 5) / Real::exp_m1(exponent)
     };
     let count = ((last - first) / STEP).ceil().max(1.0) as u32;
     let wavelength = |i| first + (last - first) * f64::from(i) / f64::from(count);

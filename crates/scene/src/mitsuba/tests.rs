@@ -1,5 +1,6 @@
 //! Tests of loading as a whole.
 
+mod examples;
 mod materials;
 mod media;
 mod motion;
@@ -54,7 +55,7 @@ fn unknown_plugins_and_parameters_are_named_with_those_that_exist() {
     refused(
         "<shape type=\"sphere\">\n<bsdf type=\"fur\"/></shape>",
         3,
-        "the bsdf “fur” is not supported; supported are blendbsdf, bumpmap, conductor",
+        "the bsdf “fur” is not supported; supported are blendbsdf, bumpmap, coating",
     );
     refused("<bsdf type=\"difuse\"/>", 2, "did you mean “diffuse”?");
     refused(

@@ -1,10 +1,10 @@
-//! `mask`, `blendbsdf`, `mixturebsdf`, `twosided`, `normalmap`, `bumpmap` and `null`.
+//! `mask`, `coating`, `blendbsdf`, `mixturebsdf`, `twosided`, `normalmap`, `bumpmap` and `null`.
 
 use alloc::format;
 
 use super::super::reader::PluginReader;
 use super::super::value::{Role, texture_if_given, texture_or};
-use super::super::{Context, texture};
+use super::super::{Context, ior, texture};
 use super::translate;
 use crate::SceneError;
 use crate::material::{Material, MaterialId, Perturbation};
@@ -19,6 +19,23 @@ pub(super) fn mask<'a>(
     let opacity = texture_or(reader, context, "opacity", Role::Reflectance, 0.5)?;
     let nested = nested(reader, context)?;
     context.add_material(Material::Mask { opacity, nested }, &reader.node().location)
+}
+
+/// A model under a smooth layer, as in Mitsuba 0.6: `int_ior` (bk7), `ext_ior` (air), `thickness` (1), `sigma_a` (0),
+/// `specular_reflectance` (1) and one model inside.
+pub(super) fn coating<'a>(
+    reader: &mut PluginReader<'a>,
+    context: &mut Context<'a>,
+) -> Result<MaterialId, SceneError> {
+    let eta = ior::relative(reader, "bk7", "air")?;
+    let valid = |x: f64| (0.0..=f64::from(f32::MAX)).contains(&x);
+    let thickness = reader.float_in("thickness", 1.0, "not negative", valid)? as f32;
+    let absorption = texture_or(reader, context, "sigma_a", Role::Material, 0.0)?;
+    let specular_reflectance =
+        texture_or(reader, context, "specular_reflectance", Role::Reflectance, 1.0)?;
+    let nested = nested(reader, context)?;
+    let material = Material::Coated { eta, absorption, thickness, specular_reflectance, nested };
+    context.add_material(material, &reader.node().location)
 }
 
 /// The one model inside.

@@ -20,6 +20,7 @@ use crate::xml::NodeId;
 const BSDFS: &Family<MaterialId> = &[
     ("blendbsdf", adapter::blend),
     ("bumpmap", adapter::bump_map),
+    ("coating", adapter::coating),
     ("conductor", conductor::smooth),
     ("dielectric", dielectric::smooth),
     ("difftrans", diffuse::transmitter),

@@ -6,12 +6,14 @@ pub(super) mod volume;
 use alloc::boxed::Box;
 use alloc::format;
 
+use etendue_math::Spectrum;
+
 use super::reader::PluginReader;
 use super::value::{Role, color_and_curve_or};
 use super::{Context, Family};
 use crate::SceneError;
 use crate::effect::Element;
-use crate::medium::{Boundary, Density, Extinction, Medium, MediumCurves, MediumId, Phase};
+use crate::medium::{Boundary, Density, Extinction, Medium, MediumCurves, MediumId, Phase, Volume};
 use crate::xml::{Kind, NodeId};
 
 /// The media there are.
@@ -64,11 +66,15 @@ pub(super) fn around<'a>(
     child.map(|child| translate(context, child.node)).transpose()
 }
 
-/// `sigma_t` (colour, 1) and what all media have.
+/// `sigma_t` (colour, 1) and what all media have; or, as in version 0.6, `sigma_s` and `sigma_a` in the place of `sigma_t` and
+/// `albedo`.
 fn homogeneous<'a>(
     reader: &mut PluginReader<'a>,
     context: &mut Context<'a>,
 ) -> Result<Medium, SceneError> {
+    if let Some(name) = ["sigma_s", "sigma_a"].into_iter().find(|name| reader.has(name)) {
+        return scattering_and_absorption(reader, context, name);
+    }
     let scale = scale(reader)?;
     if reader.has("sigma_t") && volume::is_volume(reader, context, "sigma_t") {
         let message = "the “sigma_t” of a homogeneous medium cannot be a volume";
@@ -82,6 +88,29 @@ fn homogeneous<'a>(
     let mut medium = medium(reader, context, Extinction::Homogeneous(sigma_t))?;
     medium.curves.extinction = curve.map(|curve| curve.map(|sigma| sigma * f64::from(scale)));
     Ok(medium)
+}
+
+/// `sigma_s` and `sigma_a` (colours, 0): `σt = σs + σa`, and the albedo is `σs / σt`. `given` is one that is there.
+fn scattering_and_absorption<'a>(
+    reader: &mut PluginReader<'a>,
+    context: &mut Context<'a>,
+    given: &str,
+) -> Result<Medium, SceneError> {
+    if let Some(other) = ["sigma_t", "albedo"].into_iter().find(|name| reader.has(name)) {
+        return Err(reader.error(given, format!("give either “{given}” or “{other}”")));
+    }
+    let scale = scale(reader)?;
+    let [s, a] = [
+        color_and_curve_or(reader, context, "sigma_s", Role::Material, 0.0)?.0 * scale,
+        color_and_curve_or(reader, context, "sigma_a", Role::Material, 0.0)?.0 * scale,
+    ];
+    let sigma_t = s + a;
+    if !sigma_t.to_array().iter().all(|sigma| sigma.is_finite()) {
+        return Err(reader.error("scale", "“sigma_s” and “sigma_a” times “scale” are too large"));
+    }
+    let albedo = s.zip(sigma_t, |s, t| if t > 0.0 { s / t } else { 0.0 });
+    let medium = medium(reader, context, Extinction::Homogeneous(sigma_t))?;
+    Ok(Medium { albedo: Volume::constant(albedo), ..medium })
 }
 
 /// `sigma_t` (volume, 1) and what all media have.

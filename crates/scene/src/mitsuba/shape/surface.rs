@@ -8,7 +8,7 @@ use etendue_math::glam::DVec3;
 
 use super::super::emitter::Emission;
 use super::super::reader::PluginReader;
-use super::super::{Context, bsdf, emitter, medium};
+use super::super::{Context, bsdf, emitter, medium, sensor};
 use super::{Item, Surface};
 use crate::SceneError;
 use crate::geometry::{Aabb, MeshAttribute, Motion, Placement, Shape, ShapeError, Transform};
@@ -67,6 +67,7 @@ pub(super) fn surface<'a>(
         let message = "only a rectangle or a disk can emit along its normal";
         return Err(SceneError::scene(child.location.clone(), message));
     }
+    meter(reader, context, &shape, motion.is_some())?;
     let material = match bsdf {
         Some(child) => bsdf::translate(context, child.node)?,
         None => {
@@ -78,6 +79,31 @@ pub(super) fn surface<'a>(
     let shape = with_attributes_of(material, shape, reader, context)?;
     let name = reader.node().id.clone().unwrap_or(name);
     Ok(Item::Surface(Surface { shape, motion, material, emission, boundary, name }))
+}
+
+/// The irradiance meter inside a shape, if there is one.
+fn meter<'a>(
+    reader: &mut PluginReader<'a>,
+    context: &mut Context<'a>,
+    shape: &Shape,
+    is_moving: bool,
+) -> Result<(), SceneError> {
+    let Some(child) = reader.child(Kind::Sensor, context)? else { return Ok(()) };
+    let error = |message| Err(SceneError::scene(child.location.clone(), message));
+    if is_moving {
+        return error("an irradiance meter cannot move");
+    }
+    context.metered = Some(shape.clone());
+    let sensor = sensor::translate(context, child.node)?;
+    if context.metered.take().is_some() {
+        return error("only an irradiancemeter can stand inside a shape");
+    }
+    if context.meter.is_some() {
+        context.warn(child.location.clone(), "only the first sensor is used");
+    } else {
+        context.meter = Some(sensor);
+    }
+    Ok(())
 }
 
 /// Refuses a motion that would make another kind of shape of it, or lead out of range.

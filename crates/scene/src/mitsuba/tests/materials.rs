@@ -49,6 +49,14 @@ fn every_bsdf_is_translated() {
     );
     is("<bsdf type=\"null\"/>", |m| matches!(m, Material::Null));
     is("<bsdf type=\"phong\"/>", |m| matches!(m, Material::Phong { .. }));
+    is("<bsdf type=\"coating\"><bsdf type=\"diffuse\"/></bsdf>", |m| {
+        matches!(m, Material::Coated { .. })
+    });
+    refused(
+        "<bsdf type=\"coating\"><bsdf type=\"dielectric\"/></bsdf>",
+        2,
+        "only an opaque material, of one side, can have a coating",
+    );
     is("<bsdf type=\"difftrans\"/>", |m| matches!(m, Material::DiffuseTransmitter { .. }));
 }
 

@@ -109,7 +109,7 @@ fn wrong_media_are_refused_where_they_stand() {
     refused(&inside(half), 4, "a blend needs two phase functions inside");
     refused(&inside("<phase type=\"isotropic\"/><phase type=\"hg\"/>"), 4, "more than one phase");
     refused(&inside("<float name=\"scale\" value=\"-1\"/>"), 4, "“scale” must be not negative");
-    refused(&inside("<float name=\"sigma_s\" value=\"1\"/>"), 4, "did you mean “sigma_t”?");
+    refused(&inside("<float name=\"sigma_r\" value=\"1\"/>"), 4, "did you mean “sigma_t”?");
     let volume = "<volume type=\"constvolume\" name=\"sigma_t\"/>";
     refused(&inside(volume), 4, "of a homogeneous medium cannot be a volume");
     let dense = "<medium type=\"heterogeneous\" name=\"interior\">\n\
@@ -132,4 +132,18 @@ fn media_that_the_integrator_does_not_see_are_warned_of() {
         loaded.warnings.iter().any(|w| w.to_string().contains("the integrator sees no media"))
     };
     assert!(warned("path") && !warned("volpath") && !warned("volpathmis"));
+}
+
+#[test]
+fn scattering_and_absorption_are_extinction_and_albedo() {
+    let medium = "<medium type=\"homogeneous\" name=\"interior\"><float name=\"scale\" value=\"2\"/>\
+                  <rgb name=\"sigma_s\" value=\"1 2 0\"/><rgb name=\"sigma_a\" value=\"3 0 0\"/></medium>";
+    let content = format!("<shape type=\"sphere\">{medium}</shape>");
+    let loaded = load(&content).expect("a medium of version 0.6");
+    let medium = &loaded.scene.media.list[0];
+    let Extinction::Homogeneous(sigma_t) = medium.extinction else { panic!("{medium:?}") };
+    assert_eq!(sigma_t.to_array(), [8.0, 4.0, 0.0]);
+    assert_eq!(medium.albedo.at(Vec3::ZERO).to_array(), [0.25, 1.0, 0.0]);
+    let both = content.replace("sigma_a", "sigma_t");
+    refused(&both, 2, "give either “sigma_s” or “sigma_t”");
 }
