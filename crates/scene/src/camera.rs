@@ -360,6 +360,14 @@ impl Camera {
         self.projection
     }
 
+    /// The shape whose surface an irradiance meter measures; none of other cameras.
+    pub fn metered(&self) -> Option<&Shape> {
+        match &self.optics {
+            Optics::Meter(meter) => Some(meter.shape()),
+            _ => None,
+        }
+    }
+
     /// From camera to world coordinates when the shutter opens.
     pub fn to_world(&self) -> &Transform {
         &self.to_world

@@ -1,5 +1,7 @@
 //! The camera with its film and its sampler.
 
+use alloc::vec::Vec;
+
 use etendue_math::glam::{DAffine3, DMat3, DVec3};
 
 use super::element::Element;
@@ -19,7 +21,9 @@ pub(super) fn sensor(exporter: &mut Exporter<'_>) -> Element {
     let camera = &exporter.scene.camera;
     let mut affine = *camera.to_world().affine();
     let mut scale = 1.0;
-    if camera.projection() != Projection::Orthographic {
+    let is_lens =
+        matches!(camera.projection(), Projection::Perspective { .. } | Projection::ThinLens { .. });
+    if is_lens {
         scale = unscale(exporter, &mut affine);
     }
     let (kind, parameters) = match camera.projection() {
@@ -36,10 +40,14 @@ pub(super) fn sensor(exporter: &mut Exporter<'_>) -> Element {
             ];
             ("thinlens", field_of_view(view).into_iter().chain(lens).collect())
         }
-        Projection::Orthographic => ("orthographic", alloc::vec::Vec::new()),
+        Projection::Orthographic => ("orthographic", Vec::new()),
+        Projection::RadianceMeter => ("radiancemeter", Vec::new()),
+        Projection::IrradianceMeter => ("irradiancemeter", Vec::new()),
     };
     let clips = ["near_clip", "far_clip"].into_iter().zip(camera.clip()).zip(CLIP);
-    let clips = clips.filter(|((_, own), usual)| own != usual);
+    // Meters have none.
+    let has_clips = is_lens || camera.projection() == Projection::Orthographic;
+    let clips = clips.filter(|((_, own), usual)| has_clips && own != usual);
     let around = exporter.scene.media.around_camera;
     Element::plugin("sensor", kind)
         .with_all(parameters.into_iter().flatten())

@@ -8,11 +8,12 @@ use alloc::vec::Vec;
 use super::element::Element;
 use super::names::Names;
 use super::values::string;
-use super::{ExportError, ExportedFile, Loss};
+use super::{ExportError, ExportedFile, Loss, image};
 use crate::Scene;
+use crate::geometry::ShapeId;
 use crate::material::MaterialId;
 use crate::medium::MediumId;
-use crate::texture::TextureId;
+use crate::texture::{BitmapImage, TextureId};
 
 use super::textures::Meaning;
 
@@ -32,6 +33,8 @@ pub(super) struct Exporter<'a> {
     pub(super) texture_ids: BTreeMap<(TextureId, Meaning), String>,
     pub(super) material_ids: BTreeMap<MaterialId, String>,
     pub(super) medium_ids: BTreeMap<MediumId, String>,
+    /// The sensor that stands inside a shape instead of in the scene.
+    pub(super) metering: Option<(ShapeId, Element)>,
     /// The first file that could not be written.
     pub(super) failure: Option<ExportError>,
     names: Names,
@@ -56,6 +59,7 @@ impl<'a> Exporter<'a> {
             texture_ids: BTreeMap::new(),
             material_ids: BTreeMap::new(),
             medium_ids: BTreeMap::new(),
+            metering: None,
             failure: None,
             names: Names::default(),
             folder,
@@ -65,6 +69,15 @@ impl<'a> Exporter<'a> {
     /// A name that nothing else has.
     pub(super) fn name(&mut self, wish: &str) -> String {
         self.names.unique(wish)
+    }
+
+    /// Adds an image; gives the parameter that names it.
+    pub(super) fn image(&mut self, name: &str, image: &BitmapImage) -> Element {
+        let bytes = image::exr(image).unwrap_or_else(|error| {
+            self.failure.get_or_insert(error);
+            Vec::new()
+        });
+        self.file(name, "exr", bytes)
     }
 
     /// Adds a file; gives the parameter that names it.

@@ -6,12 +6,12 @@ use super::element::Element;
 use super::exporter::Exporter;
 use super::textures::Meaning;
 use super::values::{float, rgb, to_world, vector};
-use super::{ExportError, Loss, camera, image};
+use super::{Loss, camera};
 use crate::light::{EnvironmentLight, Light, ProjectorLight, SpotLight};
 use crate::texture::Texture;
 
 /// The emitters of a scene but those inside shapes.
-pub(super) fn elements(exporter: &mut Exporter<'_>) -> Result<Vec<Element>, ExportError> {
+pub(super) fn elements(exporter: &mut Exporter<'_>) -> Vec<Element> {
     let mut elements = Vec::new();
     let mut has_background = false;
     for light in &exporter.scene.lights {
@@ -22,15 +22,15 @@ pub(super) fn elements(exporter: &mut Exporter<'_>) -> Result<Vec<Element>, Expo
             continue;
         }
         has_background |= is_background;
-        elements.extend(element(exporter, light)?);
+        elements.extend(element(exporter, light));
     }
-    Ok(elements)
+    elements
 }
 
 /// The emitter that a light is; nothing for a shape that emits.
-fn element(exporter: &mut Exporter<'_>, light: &Light) -> Result<Option<Element>, ExportError> {
-    Ok(Some(match light {
-        Light::Area(_) | Light::Beam(_) => return Ok(None),
+fn element(exporter: &mut Exporter<'_>, light: &Light) -> Option<Element> {
+    Some(match light {
+        Light::Area(_) | Light::Beam(_) => return None,
         Light::Point(light) => plugin("point")
             .with(rgb("intensity", light.intensity))
             .with(vector("point", "position", light.position)),
@@ -40,8 +40,8 @@ fn element(exporter: &mut Exporter<'_>, light: &Light) -> Result<Option<Element>
             .with(rgb("irradiance", light.irradiance))
             .with(vector("vector", "direction", light.direction)),
         Light::Constant(light) => plugin("constant").with(rgb("radiance", light.radiance)),
-        Light::Environment(light) => envmap(exporter, light)?,
-    }))
+        Light::Environment(light) => envmap(exporter, light),
+    })
 }
 
 fn plugin(kind: &str) -> Element {
@@ -75,12 +75,10 @@ fn projector(exporter: &mut Exporter<'_>, light: &ProjectorLight) -> Element {
         .with_all(to_world(light.to_world().affine()))
 }
 
-fn envmap(exporter: &mut Exporter<'_>, light: &EnvironmentLight) -> Result<Element, ExportError> {
-    let bytes = image::exr(light.image())?;
+fn envmap(exporter: &mut Exporter<'_>, light: &EnvironmentLight) -> Element {
     let name = exporter.name("envmap");
-    let filename = exporter.file(&name, "exr", bytes);
-    Ok(plugin("envmap")
-        .with(filename)
+    plugin("envmap")
+        .with(exporter.image(&name, light.image()))
         .with_all((light.scale() != 1.0).then(|| float("scale", light.scale())))
-        .with_all(to_world(light.to_world().affine())))
+        .with_all(to_world(light.to_world().affine()))
 }

@@ -17,6 +17,8 @@ pub enum Loss {
     DiffuseTransmitter,
     /// Phong's lobe.
     Phong,
+    /// A layer of glass.
+    Coating,
     /// The exact form of a microfacet model.
     ExactFacets,
     /// The exact reflectance of plastic from inside.
@@ -83,6 +85,9 @@ impl fmt::Display for Loss {
             }
             Self::Phong => {
                 "the lobe of “phong” is lost: it is that of “roughconductor”, or none where colours vary"
+            }
+            Self::Coating => {
+                "the layer of “coating” is lost: it is “plastic” on “diffuse”, and not there on other surfaces"
             }
             Self::ExactFacets => {
                 "“masking” and “smith_lambda” of facets are lost: they are “separable” and “walter”"

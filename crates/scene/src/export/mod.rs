@@ -104,8 +104,9 @@ pub fn export(scene: Scene, options: &ExportOptions) -> Result<Export, ExportErr
     let integrator = integrator::element(&mut exporter);
     let integrator = integrator::with_layers(integrator, &options.layers);
     let sensor = camera::sensor(&mut exporter);
+    let sensor = shapes::inside(&mut exporter, sensor);
     let shapes = shapes::elements(&mut exporter);
-    let lights = lights::elements(&mut exporter)?;
+    let lights = lights::elements(&mut exporter);
     let Exporter { textures, materials, media, files, losses, failure, .. } = exporter;
     if let Some(failure) = failure {
         return Err(failure);
@@ -115,7 +116,7 @@ pub fn export(scene: Scene, options: &ExportOptions) -> Result<Export, ExportErr
         .attribute("value", scene.sampling.samples_per_pixel.to_string());
     let parts = [
         Vec::from([spp]),
-        Vec::from([integrator, sensor]),
+        [integrator].into_iter().chain(sensor).collect(),
         textures,
         materials,
         media,

@@ -50,6 +50,22 @@ pub(super) fn elements(exporter: &mut Exporter<'_>) -> Vec<Element> {
     elements
 }
 
+/// Keeps a sensor for the shape whose surface it measures; gives one that stands by itself back.
+pub(super) fn inside(exporter: &mut Exporter<'_>, sensor: Element) -> Option<Element> {
+    let geometry = &exporter.scene.geometry;
+    let shape = exporter.scene.camera.metered().and_then(|metered| {
+        let is_it = |id: &&ShapeId| geometry.shapes()[id.0 as usize] == *metered;
+        geometry.top_level().iter().find(is_it)
+    });
+    match shape {
+        Some(&shape) => {
+            exporter.metering = Some((shape, sensor));
+            None
+        }
+        None => Some(sensor),
+    }
+}
+
 /// A shape with what it is made of, what it emits and what it bounds; nothing for a mesh without triangles, which Mitsuba
 /// refuses.
 fn shape(exporter: &mut Exporter<'_>, id: ShapeId) -> Option<Element> {
@@ -85,6 +101,9 @@ fn shape(exporter: &mut Exporter<'_>, id: ShapeId) -> Option<Element> {
         for (name, side) in [("interior", boundary.interior), ("exterior", boundary.exterior)] {
             element = element.with_all(side.and_then(|medium| exporter.medium(name, medium)));
         }
+    }
+    if let Some((_, sensor)) = exporter.metering.take_if(|(shape, _)| *shape == id) {
+        element = element.with(sensor);
     }
     let light = surface.light.and_then(|light| scene.lights.get(light.0 as usize));
     let emission = match light {

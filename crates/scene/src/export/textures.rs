@@ -5,7 +5,7 @@ use alloc::string::{String, ToString as _};
 use super::element::Element;
 use super::exporter::Exporter;
 use super::values::{boolean, float, rgb, spectrum, string, transform};
-use super::{image, volumes};
+use super::volumes;
 use crate::Color;
 use crate::color::Curve;
 use crate::texture::{Bitmap, Checkerboard, Filter, Texture, TextureId, UvTransform, Wrap};
@@ -97,11 +97,7 @@ impl Exporter<'_> {
     }
 
     fn bitmap(&mut self, name: &str, bitmap: &Bitmap, meaning: Meaning) -> Element {
-        let bytes = image::exr(bitmap.image()).unwrap_or_else(|error| {
-            self.failure.get_or_insert(error);
-            Default::default()
-        });
-        let filename = self.file(name, "exr", bytes);
+        let filename = self.image(name, bitmap.image());
         // Bilinear is what is left of filtering across levels of detail.
         let filter = match bitmap.filter() {
             Filter::Bilinear | Filter::Trilinear => None,
