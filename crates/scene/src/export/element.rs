@@ -72,7 +72,9 @@ impl Element {
             return;
         }
         text.push_str(">\n");
-        self.children.iter().for_each(|child| child.write(depth + 1, text));
+        for child in &self.children {
+            child.write(depth + 1, text);
+        }
         indent(text);
         text.push_str("</");
         text.push_str(self.tag);

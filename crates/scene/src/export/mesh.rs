@@ -20,10 +20,14 @@ pub(super) fn ply(mesh: &TriangleMesh) -> Vec<u8> {
     for name in groups.iter().filter(|(is_there, _)| *is_there).flat_map(|(_, names)| *names) {
         header += &format!("property float {name}\n");
     }
-    of_vertices.iter().for_each(|columns| columns.declare(&mut header));
+    for columns in &of_vertices {
+        columns.declare(&mut header);
+    }
     header += &format!("element face {}\n", mesh.triangles().len());
     header += "property list uchar int vertex_indices\n";
-    of_faces.iter().for_each(|columns| columns.declare(&mut header));
+    for columns in &of_faces {
+        columns.declare(&mut header);
+    }
     header += "end_header\n";
 
     let mut bytes = header.into_bytes();
@@ -35,18 +39,22 @@ pub(super) fn ply(mesh: &TriangleMesh) -> Vec<u8> {
         if has_uvs {
             put(&mesh.uvs()[index].to_array(), &mut bytes);
         }
-        of_vertices.iter().for_each(|columns| columns.put(index, &mut bytes));
+        for columns in &of_vertices {
+            columns.put(index, &mut bytes);
+        }
     }
     for (index, triangle) in mesh.triangles().iter().enumerate() {
         bytes.push(3);
-        triangle.iter().for_each(|corner| bytes.extend(corner.to_le_bytes()));
-        of_faces.iter().for_each(|columns| columns.put(index, &mut bytes));
+        bytes.extend(triangle.iter().flat_map(|corner| corner.to_le_bytes()));
+        for columns in &of_faces {
+            columns.put(index, &mut bytes);
+        }
     }
     bytes
 }
 
 fn put(numbers: &[f32], bytes: &mut Vec<u8>) {
-    numbers.iter().for_each(|x| bytes.extend(x.to_le_bytes()));
+    bytes.extend(numbers.iter().flat_map(|x| x.to_le_bytes()));
 }
 
 /// An attribute `vertex_P` or `face_P` as the properties `P_0`, `P_1`, `P_2`.

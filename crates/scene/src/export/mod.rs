@@ -131,7 +131,9 @@ pub fn export(scene: Scene, options: &ExportOptions) -> Result<Export, ExportErr
         if number > 0 {
             xml.push('\n');
         }
-        part.iter().for_each(|element| element.write(1, &mut xml));
+        for element in part {
+            element.write(1, &mut xml);
+        }
     }
     xml += "</scene>\n";
     Ok(Export { xml, files, losses })

@@ -227,7 +227,7 @@ fn integrators_are_those_that_see_what_there_is() {
         // Roulette begins where it did.
         assert!(!text.contains("rr_depth"), "{text}");
     }
-    let layers = vec![crate::scene::Layer::Uv, crate::scene::Layer::Normal];
+    let layers = vec![Layer::Uv, Layer::Normal];
     let options = ExportOptions { layers, ..ExportOptions::default() };
     let text = export(scene(""), &options).expect("a conversion").xml;
     assert!(text.contains("<string name=\"aovs\" value=\"uv:uv,sh_normal:sh_normal\"/>"), "{text}");

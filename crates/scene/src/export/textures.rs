@@ -1,6 +1,6 @@
 //! Textures, and the numbers and colours that stand in their place.
 
-use alloc::string::{String, ToString as _};
+use alloc::string::String;
 
 use super::element::Element;
 use super::exporter::Exporter;
@@ -91,7 +91,7 @@ impl Exporter<'_> {
                 (self.name("volume"), Element::plugin("texture", "volume").with(volume))
             }
         };
-        self.textures.push(element.attribute("id", name.to_string()));
+        self.textures.push(element.attribute("id", name.clone()));
         self.texture_ids.insert((id, meaning), name.clone());
         name
     }

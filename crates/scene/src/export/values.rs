@@ -30,8 +30,8 @@ pub(super) fn float(name: &str, x: impl fmt::Debug) -> Element {
     Element::value("float", name, number(x))
 }
 
-pub(super) fn integer(name: &str, x: impl ToString) -> Element {
-    Element::value("integer", name, x.to_string())
+pub(super) fn integer(name: &str, x: impl fmt::Display) -> Element {
+    Element::value("integer", name, format!("{x}"))
 }
 
 pub(super) fn boolean(name: &str, x: bool) -> Element {

@@ -71,13 +71,14 @@ pub(super) fn vol(grid: &VolumeGrid) -> Vec<u8> {
     let channels = if grid.has_colours() { 3 } else { 1 };
     let mut bytes = Vec::from(*b"VOL\x03");
     bytes.extend(1_i32.to_le_bytes());
-    [size[0], size[1], size[2], channels].iter().for_each(|n| bytes.extend(n.to_le_bytes()));
-    [0.0_f32, 0.0, 0.0, 1.0, 1.0, 1.0].iter().for_each(|x| bytes.extend(x.to_le_bytes()));
+    bytes.extend(size.iter().chain([&channels]).flat_map(|n| n.to_le_bytes()));
+    let bounds = [0.0_f32, 0.0, 0.0, 1.0, 1.0, 1.0];
+    bytes.extend(bounds.iter().flat_map(|x| x.to_le_bytes()));
     for z in 0..size[2] {
         for y in 0..size[1] {
             for x in 0..size[0] {
                 let values = grid.cell([x, y, z]).to_array();
-                values[..channels as usize].iter().for_each(|v| bytes.extend(v.to_le_bytes()));
+                bytes.extend(values[..channels as usize].iter().flat_map(|v| v.to_le_bytes()));
             }
         }
     }

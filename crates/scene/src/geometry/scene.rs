@@ -118,8 +118,8 @@ impl Geometry {
     pub(super) fn build(builder: GeometryBuilder) -> Self {
         let GeometryBuilder { shapes, top_level, groups, instances, moving } = builder;
         let group_shapes = groups;
-        let groups = (group_shapes.iter().cloned())
-            .map(|Range { start, end }| Level::build(&shapes, start..end, &[]))
+        let groups = (group_shapes.iter())
+            .map(|&Range { start, end }| Level::build(&shapes, start..end, &[]))
             .collect();
         let instances = instances
             .into_iter()

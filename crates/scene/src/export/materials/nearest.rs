@@ -4,7 +4,6 @@ use etendue_brdf::Ior;
 use etendue_math::{Real, Spectrum};
 
 use super::super::Loss;
-use super::super::element::Element;
 use super::super::exporter::Exporter;
 use super::super::textures::Meaning::Share;
 use super::super::values::{float, string};
