@@ -62,16 +62,15 @@ def render_mitsuba(path, definitions, runs, factor):
     return numpy.stack([numpy.array(picture, dtype=float)[:, :, :3] for picture in pictures]), spp
 
 
-def render_etendue(binary, path, definitions, runs, spp):
+def render_etendue(binary, path, definitions, runs, spp, arguments=()):
     import mitsuba
-
-    mode = ["--spectral"] if peer(path).endswith("spectral") else []
 
     pictures = []
     with tempfile.TemporaryDirectory() as folder:
         output = os.path.join(folder, "picture.exr")
         for seed in range(runs):
-            command = [binary, "render", path, "-o", output, "--quiet", "--spp", str(spp), "--seed", str(seed), *mode]
+            command = [binary, "render", path, "-o", output, "--quiet", "--spp", str(spp), "--seed", str(seed)]
+            command += arguments
             command += [word for name, value in definitions.items() for word in ("-D", f"{name}={value}")]
             result = subprocess.run(command, capture_output=True, text=True)
             if result.returncode != 0:
@@ -156,7 +155,8 @@ def main():
                     print(row.format(name, peer(path), *[""] * 3).rstrip(), flush=True)
                     continue
                 theirs, spp = render_mitsuba(path, definitions, options.runs, options.spp_factor)
-                ours = render_etendue(options.etendue, path, definitions, options.runs, spp)
+                mode = ["--spectral"] if peer(path).endswith("spectral") else []
+                ours = render_etendue(options.etendue, path, definitions, options.runs, spp, mode)
                 if ours.shape != theirs.shape:
                     raise RuntimeError(f"sizes differ: {ours.shape[2:0:-1]} and {theirs.shape[2:0:-1]}")
             except RuntimeError as error:

@@ -1,4 +1,4 @@
-//! The command `etendue`: renders scenes, inspects them, compares pictures and evaluates reflection models.
+//! The command `etendue`: renders scenes, inspects them, converts them, compares pictures and evaluates reflection models.
 //!
 //! Only this crate prints, parses arguments and exits. Each subcommand is a file in `commands`.
 
@@ -22,7 +22,7 @@ mod memory;
 mod output;
 mod progress;
 
-use commands::{accuracy, brdf, compare, effects, info, render};
+use commands::{accuracy, brdf, compare, convert, effects, info, render};
 use failure::{Exit, Failure};
 
 /// Renders Mitsuba scenes, glTF models and bare meshes, exactly and fast.
@@ -38,6 +38,7 @@ enum Command {
     Render(render::Arguments),
     Effects(effects::Arguments),
     Info(info::Arguments),
+    Convert(convert::Arguments),
     Compare(compare::Arguments),
     Brdf(brdf::Arguments),
     Accuracy(accuracy::Arguments),
@@ -53,6 +54,7 @@ fn main() -> ExitCode {
         Command::Render(arguments) => render::run(arguments),
         Command::Effects(arguments) => effects::run(arguments),
         Command::Info(arguments) => info::run(arguments),
+        Command::Convert(arguments) => convert::run(arguments),
         Command::Compare(arguments) => compare::run(arguments),
         Command::Brdf(arguments) => brdf::run(arguments),
         Command::Accuracy(arguments) => accuracy::run(arguments),

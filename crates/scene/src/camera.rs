@@ -360,6 +360,24 @@ impl Camera {
         self.projection
     }
 
+    /// The shape whose surface an irradiance meter measures; none of other cameras.
+    pub fn metered(&self) -> Option<&Shape> {
+        match &self.optics {
+            Optics::Meter(meter) => Some(meter.shape()),
+            _ => None,
+        }
+    }
+
+    /// From camera to world coordinates when the shutter opens.
+    pub fn to_world(&self) -> &Transform {
+        &self.to_world
+    }
+
+    /// The distances along the optical axis between which something is seen.
+    pub fn clip(&self) -> [f32; 2] {
+        [self.near, self.far]
+    }
+
     /// Where the camera stands when the shutter opens, in world coordinates.
     pub fn position(&self) -> Vec3 {
         self.to_world.point(Vec3::ZERO)

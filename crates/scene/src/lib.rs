@@ -9,6 +9,8 @@ extern crate std;
 pub mod camera;
 pub mod color;
 pub mod effect;
+#[cfg(feature = "std")]
+pub mod export;
 pub mod film;
 pub mod geometry;
 #[cfg(feature = "std")]

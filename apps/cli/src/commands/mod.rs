@@ -3,6 +3,7 @@
 pub(crate) mod accuracy;
 pub(crate) mod brdf;
 pub(crate) mod compare;
+pub(crate) mod convert;
 pub(crate) mod effects;
 pub(crate) mod info;
 pub(crate) mod render;

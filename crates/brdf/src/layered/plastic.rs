@@ -43,6 +43,12 @@ impl<T: Real> PlasticInterface<T> {
             escape: (T::ONE - dielectric_average(eta)) * inverse_eta_squared,
         }
     }
+
+    /// Relative index of the base.
+    #[inline]
+    pub fn eta(&self) -> T {
+        self.eta
+    }
 }
 
 /// Smooth plastic: mirror reflection at the interface, diffuse scattering below it with all internal

@@ -29,6 +29,11 @@ impl Meter {
         (sum > 0.0 && sum.is_finite()).then_some(Self { shape, areas })
     }
 
+    /// The surface.
+    pub(super) fn shape(&self) -> &Shape {
+        &self.shape
+    }
+
     /// The ray for uniforms in `[0, 1)` that stand for a point and a direction; outside of the front of the surface.
     pub(super) fn ray(&self, [u, v]: [f32; 2], direction: [f32; 2]) -> Option<Ray> {
         let total = *self.areas.last()?;

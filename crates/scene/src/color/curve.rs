@@ -20,6 +20,11 @@ impl Curve {
         Self { samples: Vec::from([(0.0, value), (1e4, value)]) }
     }
 
+    /// The samples: wavelengths in nm, increasing, and values.
+    pub fn samples(&self) -> &[(f64, f64)] {
+        &self.samples
+    }
+
     /// The value at a wavelength in nm.
     pub fn at(&self, wavelength: f64) -> f64 {
         interpolate(&self.samples, wavelength)

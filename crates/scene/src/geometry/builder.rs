@@ -7,7 +7,7 @@ use super::moving::{Moving, Origin};
 use super::{Geometry, Motion, Shape, ShapeId, Transform};
 
 /// A group of shapes that instances refer to.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct GroupId(pub(super) u32);
 
 /// Collects shapes, groups and instances.

@@ -20,6 +20,8 @@ pub struct Cylinder {
     length: f64,
     /// +1 where the front is outside, −1 where it is inside.
     side: f64,
+    /// From the cylinder of radius 1 about the z axis from 0 to 1.
+    to_world: DAffine3,
 }
 
 /// How far a cross-section may be from round, relative: matrices in scene files have six or seven
@@ -73,17 +75,21 @@ impl Cylinder {
             radius,
             length,
             side,
+            to_world: *to_world.affine(),
         })
     }
 
     /// The cylinder moved by a transform.
     pub(super) fn transformed(self, transform: &Transform) -> Result<Self, ShapeError> {
-        let Self { start, frame: Frame { s, t, n }, radius, length, side } = self;
-        let unit = DAffine3::from_cols(s * radius, t * radius, n * length, start);
-        let unit = Transform::from_affine(unit)?;
-        let is_flipped = (side < 0.0) != unit.is_mirrored();
-        let moved = Self::of_unit(&transform.compose(&unit)?)?;
+        let (unit, is_flipped) = self.placement();
+        let moved = Self::of_unit(&transform.compose(&Transform::from_affine(*unit)?)?)?;
         Ok(if is_flipped { moved.flipped() } else { moved })
+    }
+
+    /// What places the cylinder of radius 1 about the z axis from 0 to 1, and whether front and back are exchanged.
+    pub fn placement(&self) -> (&DAffine3, bool) {
+        let is_mirrored = self.to_world.matrix3.determinant() < 0.0;
+        (&self.to_world, (self.side < 0.0) != is_mirrored)
     }
 
     /// The same cylinder with front and back exchanged.

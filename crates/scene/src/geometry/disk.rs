@@ -1,6 +1,6 @@
 //! Disks.
 
-use etendue_math::glam::{DVec3, Vec3};
+use etendue_math::glam::{DAffine3, DVec3, Vec3};
 use etendue_math::{Real, Vector3};
 use etendue_sampling::warp::disk;
 
@@ -38,6 +38,11 @@ impl Disk {
     pub fn area(&self) -> f32 {
         let m = &self.to_world.affine().matrix3;
         (<f64 as Real>::PI * Vector3::length(m.x_axis.cross(m.y_axis))) as f32
+    }
+
+    /// What places the unit disk, and whether front and back are exchanged.
+    pub fn placement(&self) -> (&DAffine3, bool) {
+        (self.to_world.affine(), self.normal.dot(self.to_world.normal(Vec3::Z)) < 0.0)
     }
 
     pub(crate) fn bounds(&self) -> Aabb {

@@ -86,6 +86,11 @@ impl TriangleMesh {
         Self { arrays: self.arrays.keep_attributes(keep), ..self }
     }
 
+    /// Whether front and back are exchanged.
+    pub fn is_flipped(&self) -> bool {
+        self.flipped
+    }
+
     /// What the mesh knows of its surface beyond positions, normals and texture coordinates.
     pub fn attributes(&self) -> &[MeshAttribute] {
         &self.arrays.attributes

@@ -4,7 +4,7 @@ use alloc::vec::Vec;
 
 use etendue_math::glam::{Vec2, Vec3};
 
-use super::{AttributeOwner, MeshAttribute, Transform};
+use super::{AttributeOwner, MeshAttribute, Transform, is_unit};
 use crate::Color;
 use crate::parallel;
 
@@ -173,13 +173,17 @@ impl MeshArrays {
     /// The mesh with positions moved by a transform and normals by its transposed inverse.
     ///
     /// The order of the vertices stays, so mirroring turns a mesh without normals inside out, as
-    /// it does in Mitsuba.
+    /// it does in Mitsuba. Normals become unit vectors; those that are, up to their rounding, stay what they are where nothing
+    /// is moved, so that a mesh that was written down is read as it was.
     ///
     /// # Errors
     /// A vertex that leaves the range of `f32`.
     pub fn transformed(mut self, transform: &Transform) -> Result<Self, MeshError> {
+        let stays = *transform == Transform::IDENTITY;
         parallel::update(&mut self.positions, |p| transform.point(p));
-        parallel::update(&mut self.normals, |n| transform.normal(n));
+        parallel::update(&mut self.normals, |n| {
+            if stays && is_unit(n) { n } else { transform.normal(n) }
+        });
         match parallel::position(&self.positions, |p| !p.is_finite()) {
             Some(vertex) => Err(MeshError::NotFinite { attribute: "position", vertex }),
             None => Ok(self),

@@ -58,4 +58,5 @@ pub use sdf::{SdfError, SdfGrid, SdfNormals, SdfSamples};
 pub use shape::{Shape, ShapeError, ShapeId};
 pub use sphere::Sphere;
 pub use surface::SurfacePoint;
+pub(crate) use transform::is_unit;
 pub use transform::{Transform, TransformError};

@@ -1,6 +1,6 @@
 //! Rectangles.
 
-use etendue_math::glam::Vec3;
+use etendue_math::glam::{DAffine3, Vec3};
 
 use super::surface::LocalSurface;
 use super::triangle::{Corners, Facet};
@@ -15,6 +15,9 @@ pub struct Rectangle {
     normal: Vec3,
     /// The two triangles that rays are tested against.
     halves: [Facet; 2],
+    /// From the square.
+    to_world: DAffine3,
+    is_flipped: bool,
 }
 
 impl Rectangle {
@@ -25,26 +28,37 @@ impl Rectangle {
     pub fn new(transform: &Transform) -> Result<Self, ShapeError> {
         let corners = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]]
             .map(|[x, y]| transform.point(Vec3::new(x, y, 0.0)));
-        Self::of_corners(corners, transform.normal(Vec3::Z))
+        Self::of_corners(corners, transform.normal(Vec3::Z), *transform.affine())
     }
 
-    fn of_corners(corners: [Vec3; 4], normal: Vec3) -> Result<Self, ShapeError> {
+    fn of_corners(
+        corners: [Vec3; 4],
+        normal: Vec3,
+        to_world: DAffine3,
+    ) -> Result<Self, ShapeError> {
         if corners.iter().any(|c| !c.is_finite()) {
             return Err(ShapeError::OutOfRange);
         }
         let halves = [0, 1].map(|half| Facet::of(half_of(&corners, half)));
-        Ok(Self { corners, normal, halves })
+        Ok(Self { corners, normal, halves, to_world, is_flipped: false })
     }
 
     /// The rectangle moved by a transform.
     pub(super) fn transformed(self, transform: &Transform) -> Result<Self, ShapeError> {
         let corners = self.corners.map(|corner| transform.point(corner));
-        Self::of_corners(corners, transform.normal(self.normal))
+        let to_world = *transform.affine() * self.to_world;
+        let moved = Self::of_corners(corners, transform.normal(self.normal), to_world)?;
+        Ok(Self { is_flipped: self.is_flipped, ..moved })
     }
 
     /// The same rectangle with front and back exchanged.
     pub fn flipped(self) -> Self {
-        Self { normal: -self.normal, ..self }
+        Self { normal: -self.normal, is_flipped: !self.is_flipped, ..self }
+    }
+
+    /// What places the square, and whether front and back are exchanged.
+    pub fn placement(&self) -> (&DAffine3, bool) {
+        (&self.to_world, self.is_flipped)
     }
 
     /// The corners at (u, v) = (0, 0), (1, 0), (1, 1), (0, 1).

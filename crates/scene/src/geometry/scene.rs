@@ -8,7 +8,8 @@ use super::bvh::{Bvh, Found, Objects, PreparedRay, TriangleRef};
 use super::moving::{Moving, Origin};
 use super::surface::LocalSurface;
 use super::{
-    Aabb, GeometryBuilder, Moment, Ray, Rays, Shape, ShapeId, SurfacePoint, Transform, triangle,
+    Aabb, GeometryBuilder, GroupId, Moment, Ray, Rays, Shape, ShapeId, SurfacePoint, Transform,
+    triangle,
 };
 
 /// Shapes, groups and instances, ready for rays.
@@ -23,6 +24,8 @@ pub struct Geometry {
     instances: Vec<Instance>,
     moving: Vec<Moving>,
     groups: Vec<Level>,
+    /// The shapes of each group.
+    group_shapes: Vec<Range<u32>>,
     pub(super) top: Level,
     pub(super) backend: Backend,
 }
@@ -118,9 +121,9 @@ impl Level {
 impl Geometry {
     pub(super) fn build(builder: GeometryBuilder) -> Self {
         let GeometryBuilder { shapes, top_level, groups, instances, moving } = builder;
-        let groups = groups
-            .into_iter()
-            .map(|Range { start, end }| Level::build(&shapes, start..end, &[]))
+        let group_shapes = groups;
+        let groups = (group_shapes.iter())
+            .map(|&Range { start, end }| Level::build(&shapes, start..end, &[]))
             .collect();
         let instances = instances
             .into_iter()
@@ -128,7 +131,7 @@ impl Geometry {
             .collect();
         let top = Level::build(&shapes, core::iter::empty(), &[]);
         let backend = Backend::detect();
-        Self { shapes, top_level, instances, moving, groups, top, backend }.with_top()
+        Self { shapes, top_level, instances, moving, groups, group_shapes, top, backend }.with_top()
     }
 
     /// The same with the hierarchy of the world built anew.
@@ -255,6 +258,22 @@ impl Geometry {
     /// Every shape, those of groups included, in the order in which they were added.
     pub fn shapes(&self) -> &[Shape] {
         &self.shapes
+    }
+
+    /// The shapes that stand in the world by themselves.
+    pub fn top_level(&self) -> &[ShapeId] {
+        &self.top_level
+    }
+
+    /// The shapes of a group, which follow each other; none of a group of another geometry.
+    pub fn group(&self, group: GroupId) -> impl ExactSizeIterator<Item = ShapeId> + use<> {
+        let shapes = self.group_shapes.get(group.0 as usize);
+        shapes.cloned().unwrap_or_default().map(ShapeId)
+    }
+
+    /// The instances that stand still: which group, and where it is put.
+    pub fn instances(&self) -> impl Iterator<Item = (GroupId, &Transform)> {
+        self.instances.iter().map(|instance| (GroupId(instance.group), &instance.transform))
     }
 
     /// Where an instance puts its group at a moment; `None` where there is no such instance.

@@ -1,6 +1,6 @@
 //! Spheres.
 
-use etendue_math::glam::{DVec3, Vec3};
+use etendue_math::glam::{DAffine3, DVec3, Vec3};
 use etendue_math::{Real, Vector3};
 use etendue_sampling::warp::uniform_sphere;
 
@@ -72,6 +72,11 @@ impl Sphere {
     /// Whether the front is inside.
     pub(crate) fn faces_inward(&self) -> bool {
         self.side < 0.0
+    }
+
+    /// What places the unit sphere, and whether front and back are exchanged.
+    pub fn placement(&self) -> (&DAffine3, bool) {
+        (self.to_world.affine(), self.faces_inward() != self.to_world.is_mirrored())
     }
 
     pub(crate) fn exact_center(&self) -> DVec3 {

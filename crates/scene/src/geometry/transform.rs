@@ -331,6 +331,13 @@ pub(crate) fn unit_or_zero(v: Vec3) -> Vec3 {
     unit(v.as_dvec3()).map_or(Vec3::ZERO, DVec3::as_vec3)
 }
 
+/// Whether a vector is a unit vector up to the rounding of its components, half a unit in the last place each: by at most
+/// 2 √3 2⁻²⁵ in the square of its length.
+pub(crate) fn is_unit(v: Vec3) -> bool {
+    let v = v.as_dvec3();
+    Real::abs(v.dot(v) - 1.0) <= f64::from(f32::EPSILON)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -72,6 +72,21 @@ impl EnvironmentLight {
         Ok(Self { image, to_world, scale, tables, total: total as f32 * scale })
     }
 
+    /// The map.
+    pub fn image(&self) -> &BitmapImage {
+        &self.image
+    }
+
+    /// From the map's frame to the world's.
+    pub fn to_world(&self) -> &Transform {
+        &self.to_world
+    }
+
+    /// The factor of the map's values.
+    pub fn scale(&self) -> f32 {
+        self.scale
+    }
+
     fn distribution(&self) -> Option<Tabulated2d<'_, f32>> {
         let [columns, rows] = cells(&self.image);
         Tabulated2d::from_storage(self.tables.as_ref()?, columns, rows)

@@ -7,6 +7,7 @@ use etendue_sampling::warp::uniform_sphere;
 
 use super::{LightError, LightSample, is_emission};
 use crate::Color;
+use crate::geometry::is_unit;
 
 /// Emits evenly into all directions from one point.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -69,7 +70,11 @@ pub struct DirectionalLight {
 
 impl DirectionalLight {
     pub(crate) fn normalized(self) -> Result<Self, LightError> {
-        let direction = Vector3::try_normalize(self.direction).ok_or(LightError::Direction)?;
+        let direction = if is_unit(self.direction) {
+            self.direction
+        } else {
+            Vector3::try_normalize(self.direction).ok_or(LightError::Direction)?
+        };
         if is_emission(self.irradiance) {
             Ok(Self { direction, ..self })
         } else {

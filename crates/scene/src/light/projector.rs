@@ -30,6 +30,7 @@ pub struct ProjectorLight {
     transform: Transform,
     irradiance: TextureId,
     scale: f32,
+    field_of_view: FieldOfView,
     half_extent: [f32; 2],
 }
 
@@ -62,7 +63,22 @@ impl ProjectorLight {
         if !half_extent.iter().all(|x| x.is_normal()) {
             return Err(LightError::FieldOfView);
         }
-        Ok(Self { transform, irradiance, scale, half_extent })
+        Ok(Self { transform, irradiance, scale, field_of_view, half_extent })
+    }
+
+    /// From its frame to the world's.
+    pub fn to_world(&self) -> &Transform {
+        &self.transform
+    }
+
+    /// The factor of the picture.
+    pub fn scale(&self) -> f32 {
+        self.scale
+    }
+
+    /// How wide the picture is thrown.
+    pub fn field_of_view(&self) -> FieldOfView {
+        self.field_of_view
     }
 
     /// Where it stands.

@@ -25,6 +25,8 @@ pub struct SpotLight {
     transform: Transform,
     intensity: Color,
     texture: Option<TextureId>,
+    /// Cutoff angle and beam width as they were given.
+    degrees: [f64; 2],
     cutoff: f32,
     beam_width: f32,
     cos_cutoff: f32,
@@ -56,17 +58,34 @@ impl SpotLight {
         if !(0.0 <= beam_width && beam_width <= cutoff && 0.0 < cutoff && cutoff <= 180.0) {
             return Err(LightError::Cone);
         }
-        let (cutoff, beam_width) = (cutoff.to_radians(), beam_width.to_radians());
+        let degrees = [cutoff, beam_width];
+        let [cutoff, beam_width] = degrees.map(f64::to_radians);
         Ok(Self {
             transform,
             intensity,
             texture,
+            degrees,
             cutoff: cutoff as f32,
             beam_width: beam_width as f32,
             cos_cutoff: Real::cos(cutoff) as f32,
             cos_beam_width: Real::cos(beam_width) as f32,
             tan_cutoff: Real::tan(cutoff) as f32,
         })
+    }
+
+    /// From its frame to the world's.
+    pub fn to_world(&self) -> &Transform {
+        &self.transform
+    }
+
+    /// Intensity along the axis, in W sr⁻¹.
+    pub fn axial_intensity(&self) -> Color {
+        self.intensity
+    }
+
+    /// Cutoff angle and beam width in degrees from the axis.
+    pub fn degrees(&self) -> [f64; 2] {
+        self.degrees
     }
 
     /// Where it stands.

@@ -45,6 +45,16 @@ impl Density {
         Self { volume: self.volume.grey(), ..self }
     }
 
+    /// What is multiplied by the factor.
+    pub fn volume(&self) -> &Volume {
+        &self.volume
+    }
+
+    /// The factor.
+    pub fn scale(&self) -> f32 {
+        self.scale
+    }
+
     /// Whether channels may differ.
     pub fn is_coloured(&self) -> bool {
         self.volume.is_coloured()

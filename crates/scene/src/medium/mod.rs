@@ -20,7 +20,7 @@ pub use density::Density;
 pub use grid::{GridError, VolumeGrid};
 pub use majorants::Stretch;
 pub use phase::{BlendPhase, Phase, TabulatedPhase};
-pub use volume::{GridFilter, Volume};
+pub use volume::{GridFilter, PlacedGrid, Volume};
 
 use crate::Color;
 use crate::color::{Channels, Curve};

@@ -33,17 +33,22 @@ pub struct Volume {
 
 #[derive(Clone, Debug)]
 enum Values {
-    Constant(Color),
+    /// With the placement of the unit cube, which bounds it.
+    Constant(Color, Box<Transform>),
     Grid(Box<PlacedGrid>),
 }
 
 /// A grid that fills the image of the unit cube.
 #[derive(Clone, Debug)]
-struct PlacedGrid {
-    grid: VolumeGrid,
-    to_world: Transform,
-    filter: GridFilter,
-    wrap: Wrap,
+pub struct PlacedGrid {
+    /// Its values.
+    pub grid: VolumeGrid,
+    /// What places the unit cube.
+    pub to_world: Transform,
+    /// How values between the centres of cells are found.
+    pub filter: GridFilter,
+    /// What lies outside.
+    pub wrap: Wrap,
 }
 
 const UNIT_CUBE: Aabb = Aabb { min: Vec3::ZERO, max: Vec3::ONE };
@@ -57,7 +62,8 @@ impl Volume {
     /// The same, with the image of the unit cube as [`bounds`](Self::bounds).
     pub fn constant_in(color: Color, to_world: &Transform) -> Self {
         let color = color.map(|c| if c > 0.0 && c.is_finite() { c } else { 0.0 });
-        Self { values: Values::Constant(color), bounds: to_world.aabb(&UNIT_CUBE) }
+        let values = Values::Constant(color, Box::new(*to_world));
+        Self { values, bounds: to_world.aabb(&UNIT_CUBE) }
     }
 
     /// A grid that fills the unit cube, placed by `to_world` and continued beyond by `wrap`.
@@ -69,13 +75,29 @@ impl Volume {
     /// The same without colour: the mean of the channels.
     pub(super) fn grey(self) -> Self {
         let values = match self.values {
-            Values::Constant(color) => Values::Constant(Color::splat(color.mean())),
+            Values::Constant(color, place) => Values::Constant(Color::splat(color.mean()), place),
             Values::Grid(mut placed) => {
                 placed.grid = placed.grid.grey();
                 Values::Grid(placed)
             }
         };
         Self { values, ..self }
+    }
+
+    /// What places the unit cube that [`bounds`](Self::bounds) surrounds.
+    pub fn to_world(&self) -> &Transform {
+        match &self.values {
+            Values::Constant(_, to_world) => to_world,
+            Values::Grid(placed) => &placed.to_world,
+        }
+    }
+
+    /// The grid that it is, if it is one; else it is the same everywhere.
+    pub fn placed_grid(&self) -> Option<&PlacedGrid> {
+        match &self.values {
+            Values::Constant(..) => None,
+            Values::Grid(placed) => Some(placed),
+        }
     }
 
     /// A box around the unit cube, in the world.
@@ -86,7 +108,7 @@ impl Volume {
     /// Whether channels may differ.
     pub fn is_coloured(&self) -> bool {
         match &self.values {
-            Values::Constant(color) => !(color.r == color.g && color.g == color.b),
+            Values::Constant(color, _) => !(color.r == color.g && color.g == color.b),
             Values::Grid(placed) => placed.grid.has_colours(),
         }
     }
@@ -95,7 +117,7 @@ impl Volume {
     #[inline]
     pub fn at(&self, position: Vec3) -> Color {
         match &self.values {
-            Values::Constant(color) => *color,
+            Values::Constant(color, _) => *color,
             Values::Grid(placed) => placed.at(position),
         }
     }
@@ -104,7 +126,7 @@ impl Volume {
     /// itself, as in Mitsuba 3 (3.9.1).
     pub fn value_at(&self, position: Vec3) -> f32 {
         match &self.values {
-            Values::Constant(color) => color.mean(),
+            Values::Constant(color, _) => color.mean(),
             Values::Grid(placed) if !placed.grid.has_colours() => placed.at(position).r,
             Values::Grid(placed) => placed.at(position).luminance(),
         }
@@ -113,7 +135,7 @@ impl Volume {
     /// The mean over the cells.
     pub(crate) fn mean(&self) -> Color {
         match &self.values {
-            Values::Constant(color) => *color,
+            Values::Constant(color, _) => *color,
             Values::Grid(placed) => placed.grid.mean(),
         }
     }
@@ -121,7 +143,7 @@ impl Volume {
     /// The largest value of each channel.
     pub(crate) fn max(&self) -> Color {
         match &self.values {
-            Values::Constant(color) => *color,
+            Values::Constant(color, _) => *color,
             Values::Grid(placed) => placed.grid.max(),
         }
     }
@@ -129,7 +151,7 @@ impl Volume {
     /// A bound of all channels within a box of the world.
     pub(super) fn largest_within(&self, region: &Aabb) -> f32 {
         match &self.values {
-            Values::Constant(color) => color.max_channel(),
+            Values::Constant(color, _) => color.max_channel(),
             Values::Grid(placed) => placed.largest_within(region),
         }
     }

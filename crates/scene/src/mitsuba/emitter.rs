@@ -11,6 +11,7 @@ use super::value::{Role, color_or, texture_if_given, texture_or};
 use super::{Context, Family};
 use crate::SceneError;
 use crate::effect::Element;
+use crate::geometry::is_unit;
 use crate::light::{
     ConstantLight, DirectionalLight, EnvironmentLight, Light, LightError, LightId, PointLight,
     ProjectorLight, SpotLight,
@@ -124,10 +125,13 @@ fn directional<'a>(
         Some(direction) => direction,
         None => to_world.affine().transform_vector3(DVec3::Z),
     };
-    let Some(direction) = direction.try_normalize() else {
-        return Err(reader.error("direction", "the direction has no length"));
+    // A unit vector stays what it is, so that a scene that was written down is read as it was.
+    let direction = match direction.try_normalize() {
+        Some(_) if is_unit(direction.as_vec3()) => direction.as_vec3(),
+        Some(unit) => unit.as_vec3(),
+        None => return Err(reader.error("direction", "the direction has no length")),
     };
-    Ok(Light::Directional(DirectionalLight { direction: direction.as_vec3(), irradiance }))
+    Ok(Light::Directional(DirectionalLight { direction, irradiance }))
 }
 
 /// `intensity` (1), and `position` or `to_world`.

@@ -84,6 +84,21 @@ impl Bitmap {
         &self.image
     }
 
+    /// How colours between texel centres are made.
+    pub fn filter(&self) -> Filter {
+        self.filter
+    }
+
+    /// What lies outside the unit square.
+    pub fn wrap(&self) -> Wrap {
+        self.wrap
+    }
+
+    /// What coordinates are transformed by first.
+    pub fn uv(&self) -> &UvTransform {
+        &self.uv
+    }
+
     /// The colour at texture coordinates `uv`.
     ///
     /// ```text

@@ -152,6 +152,11 @@ impl BitmapImage {
         self.height
     }
 
+    /// Whether it has no colours.
+    pub fn is_grey(&self) -> bool {
+        matches!(self.texels, Texels::Grey8 { .. } | Texels::Grey(_))
+    }
+
     /// The linear colour of a texel; the last column or row for larger indices.
     #[inline]
     pub fn texel(&self, column: u32, row: u32) -> Color {

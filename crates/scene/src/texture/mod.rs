@@ -352,6 +352,11 @@ impl Textures {
         self.is_constant(id) && self.mean(id).is_black()
     }
 
+    /// Whether the texture is white everywhere, being constant.
+    pub(crate) fn is_white(&self, id: TextureId) -> bool {
+        self.is_constant(id) && self.mean(id) == Color::white()
+    }
+
     /// Whether the texture is a [`Texture::Constant`].
     pub fn is_constant(&self, id: TextureId) -> bool {
         matches!(self.get(id), Some(Texture::Constant(_)))

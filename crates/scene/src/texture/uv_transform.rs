@@ -33,6 +33,12 @@ impl UvTransform {
         (own.matrix.is_finite() && own.translation.is_finite()).then_some(own)
     }
 
+    /// Its entries by rows, the translation last in each.
+    pub fn rows(&self) -> [[f32; 3]; 2] {
+        let (x, y, t) = (self.matrix.x_axis, self.matrix.y_axis, self.translation);
+        [[x.x, y.x, t.x], [x.y, y.y, t.y]]
+    }
+
     /// The transformed coordinates.
     #[inline]
     pub fn apply(&self, [u, v]: [f32; 2]) -> [f32; 2] {

@@ -40,6 +40,11 @@ impl TabulatedPhase {
         Ok(Self { values: values.into(), cdf: cdf.into() })
     }
 
+    /// The values at cosines from −1 to 1.
+    pub fn values(&self) -> &[f32] {
+        &self.values
+    }
+
     /// The piece, from one value to the next, of this index.
     #[inline]
     fn piece(&self, index: usize) -> Option<Linear<f32>> {
