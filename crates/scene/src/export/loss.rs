@@ -31,6 +31,10 @@ pub enum Loss {
     StretchedCamera,
     /// More than one light around the scene.
     SecondBackground,
+    /// Borders of an image that differ.
+    SecondWrap,
+    /// Textures multiplied or compared that are no single image.
+    Product,
 }
 
 /// The effects that Mitsuba 3 does not have.
@@ -98,6 +102,10 @@ impl fmt::Display for Loss {
             Self::BoxFilter => "the radius of the box filter is lost: it is half a pixel",
             Self::Seed => "the sampler's seed is lost: it has more than 32 bits",
             Self::StretchedCamera => "the camera's uneven stretching or shearing is lost",
+            Self::SecondWrap => "images have the same borders above and below as left and right",
+            Self::Product => {
+                "textures that are multiplied, or filtered and compared with a limit, are lost: they are their mean"
+            }
             Self::SecondBackground => "of several lights around the scene only the first is there",
         };
         f.write_str(text)

@@ -7,9 +7,11 @@
 //!
 //! One file here per family of plugins, each with one exhaustive match.
 
+mod baked;
 mod camera;
 mod element;
 mod exporter;
+mod fields;
 mod film;
 mod image;
 mod integrator;

@@ -7,7 +7,7 @@ use etendue_math::glam::DAffine3;
 
 use super::element::Element;
 use super::exporter::Exporter;
-use super::mesh;
+use super::{fields, mesh};
 use super::textures::Meaning;
 use super::values::{boolean, to_world};
 use crate::geometry::{GroupId, Shape, ShapeId};
@@ -92,6 +92,8 @@ fn shape(exporter: &mut Exporter<'_>, id: ShapeId) -> Option<Element> {
         Shape::Rectangle(rectangle) => placed("rectangle", rectangle.placement()),
         Shape::Disk(disk) => placed("disk", disk.placement()),
         Shape::Cylinder(cylinder) => placed("cylinder", cylinder.placement()),
+        Shape::Sdf(grid) => fields::sdf(exporter, &name, grid),
+        Shape::Curves(curves) => fields::curves(exporter, &name, curves),
     };
     let mut element = element
         .attribute("id", name)

@@ -8,7 +8,11 @@ use super::values::{boolean, float, rgb, spectrum, string, transform};
 use super::volumes;
 use crate::Color;
 use crate::color::Curve;
-use crate::texture::{Bitmap, Checkerboard, Filter, Texture, TextureId, UvTransform, Wrap};
+use super::baked::baked;
+use super::loss::Loss;
+use crate::texture::{
+    Bitmap, Checkerboard, Filter, Texture, TextureId, UvTransform, Wrap,
+};
 
 /// What a texture stands for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -86,6 +90,21 @@ impl Exporter<'_> {
                     .with_all(scale);
                 (self.name(&attribute.name), element)
             }
+            // Mitsuba has neither; what is no single image is the mean.
+            Texture::Product(_)
+            | Texture::Threshold(_) => {
+                let name = self.name("bitmap");
+                let element = match baked(&self.scene.textures, id) {
+                    Some(bitmap) => self.bitmap(&name, &bitmap, meaning),
+                    None => {
+                        self.losses.insert(Loss::Product);
+                        let mean = self.scene.textures.mean(id);
+                        let value = self.constant("color", mean, None, meaning);
+                        Element::plugin("texture", "srgb").with(value)
+                    }
+                };
+                (name, element)
+            }
             Texture::Volume(texture) => {
                 let volume = volumes::plugin(self, &texture.volume, 1.0).named("volume");
                 (self.name("volume"), Element::plugin("texture", "volume").with(volume))
@@ -103,7 +122,11 @@ impl Exporter<'_> {
             Filter::Bilinear | Filter::Trilinear => None,
             Filter::Nearest => Some(string("filter_type", "nearest")),
         };
-        let wrap = match bitmap.wrap() {
+        let [wrap, other] = bitmap.wraps();
+        if wrap != other {
+            self.losses.insert(Loss::SecondWrap);
+        }
+        let wrap = match wrap {
             Wrap::Repeat => None,
             Wrap::Mirror => Some("mirror"),
             Wrap::Clamp => Some("clamp"),

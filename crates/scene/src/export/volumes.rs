@@ -65,15 +65,21 @@ pub(super) fn plugin(exporter: &mut Exporter<'_>, volume: &Volume, unit: f32) ->
         .with_all(place)
 }
 
-/// A grid as Mitsuba's volume file, in the unit cube; [`parse_volume`](crate::load::parse_volume) says how.
-pub(super) fn vol(grid: &VolumeGrid) -> Vec<u8> {
-    let size = grid.size();
-    let channels = if grid.has_colours() { 3 } else { 1 };
+/// The beginning of a volume file of values of single precision in the unit cube.
+pub(super) fn header(size: [u32; 3], channels: u32) -> Vec<u8> {
     let mut bytes = Vec::from(*b"VOL\x03");
     bytes.extend(1_i32.to_le_bytes());
     bytes.extend(size.iter().chain([&channels]).flat_map(|n| n.to_le_bytes()));
     let bounds = [0.0_f32, 0.0, 0.0, 1.0, 1.0, 1.0];
     bytes.extend(bounds.iter().flat_map(|x| x.to_le_bytes()));
+    bytes
+}
+
+/// A grid as Mitsuba's volume file, in the unit cube; [`parse_volume`](crate::load::parse_volume) says how.
+pub(super) fn vol(grid: &VolumeGrid) -> Vec<u8> {
+    let size = grid.size();
+    let channels = if grid.has_colours() { 3 } else { 1 };
+    let mut bytes = header(size, channels);
     for z in 0..size[2] {
         for y in 0..size[1] {
             for x in 0..size[0] {

@@ -89,8 +89,8 @@ impl Bitmap {
         self.filter
     }
 
-    /// What lies outside the unit square.
-    pub fn wrap(&self) -> Wrap {
+    /// What lies outside the unit square: left and right, and above and below.
+    pub fn wraps(&self) -> [Wrap; 2] {
         self.wrap
     }
 

@@ -116,6 +116,26 @@ impl Curves {
         Ok(Self { side, ..Self::of_segments(basis, points, segments)? })
     }
 
+    /// How points make a curve.
+    pub fn basis(&self) -> CurveBasis {
+        self.basis
+    }
+
+    /// The control points, in world space.
+    pub fn points(&self) -> &[CurvePoint] {
+        &self.points
+    }
+
+    /// The first control point of each segment, in order.
+    pub fn segments(&self) -> &[u32] {
+        &self.segments
+    }
+
+    /// Whether front and back are exchanged.
+    pub fn is_flipped(&self) -> bool {
+        self.side < 0.0
+    }
+
     /// The same curves with front and back exchanged. They are met from outside as before.
     #[must_use]
     pub fn flipped(self) -> Self {

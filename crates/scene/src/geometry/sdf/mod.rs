@@ -9,7 +9,7 @@ mod voxel;
 
 use alloc::vec::Vec;
 
-use etendue_math::glam::{DVec3, Vec3};
+use etendue_math::glam::{DAffine3, DVec3, Vec3};
 use etendue_math::{Real, Vector3};
 
 use super::sphere::round_point;
@@ -94,6 +94,21 @@ impl SdfGrid {
     #[must_use]
     pub fn flipped(self) -> Self {
         Self { side: -self.side, ..self }
+    }
+
+    /// The field.
+    pub fn samples(&self) -> &SdfSamples {
+        &self.samples
+    }
+
+    /// Which normals it is shaded with.
+    pub fn normals(&self) -> SdfNormals {
+        self.normals
+    }
+
+    /// Where the unit cube is, and whether front and back are exchanged.
+    pub fn placement(&self) -> (&DAffine3, bool) {
+        (self.to_world.affine(), self.side < 0.0)
     }
 
     /// Voxels with a part of the surface.
