@@ -157,11 +157,12 @@ fn a_polished_metal_mirrors_the_white_sky_in_its_colour() {
         "baseColorFactor": [0.25, 0.5, 0.75, 1], "metallicFactor": 1, "roughnessFactor": 0,
     }});
     let picture = render(&squares(&[metal], &camera()), &["--size", "8x8", "--spp", "64"]);
-    for pixel in &picture.pixels {
-        for (found, expected) in pixel.iter().zip([0.25, 0.5, 0.75]) {
-            // Schlick's (1 − cos)⁵ is 1e-8 at 10°; facets of width 0.001 hide nothing.
-            assert!((found - expected).abs() < 1e-3, "{found} instead of {expected}");
-        }
+    for (channel, expected) in [0.25, 0.5, 0.75].into_iter().enumerate() {
+        let values = picture.pixels.iter().map(|pixel| f64::from(pixel[channel]));
+        let mean = values.sum::<f64>() / picture.pixels.len() as f64;
+        // Schlick's (1 − cos)⁵ is 1e-8 at 10°. Of 4096 samples some two leave in the tail of facets of width 0.001, where the
+        // sky itself is as likely to be drawn: ten of them are 0.25 %.
+        assert!((mean / expected - 1.0).abs() < 2.5e-3, "{mean} instead of {expected}");
     }
 }
 
@@ -207,7 +208,7 @@ fn the_sun_shines_through_holes_and_panes() {
         );
         picture.pixel(0, 0)[0]
     };
-    let lit = middle(&[floor.clone()]);
+    let lit = middle(core::slice::from_ref(&floor));
     // A hole is nothing at all; the crop has one pixel of the same samples.
     assert!((middle(&[floor.clone(), hole]) / lit - 1.0).abs() < 1e-5);
     // A pane of index 1.5 lets 92 % through at normal incidence and 91 % at this angle, each way: 0.84, and the light between
@@ -258,7 +259,7 @@ fn what_is_wrong_with_a_model_is_one_message_with_file_and_place() {
     for (bytes, exit, message) in cases {
         let outcome = run(&bytes, &["render", "model.glb", "-o", "out.exr"]);
         assert_eq!(outcome.exit, Some(exit), "{}", outcome.stderr);
-        let [error] = outcome.errors()[..] else { panic!("one error: {}", outcome.stderr) };
+        let [error] = &outcome.errors()[..] else { panic!("one error: {}", outcome.stderr) };
         assert!(error.contains(message), "{message} in {error}");
     }
 }
