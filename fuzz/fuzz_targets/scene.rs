@@ -34,13 +34,13 @@ fuzz_target!(|data: &[u8]| {
 /// character's number; or one that goes up.
 fn leaves(text: &[u8]) -> bool {
     let holds = |part: &[u8]| text.windows(part.len()).any(|window| window == part);
-    holds(b"\"/")
-        || holds(b"'/")
-        || holds(b"..")
+    let absolute = |window: &[u8]| matches!(window, [b'"' | b'\'', b'/', next] if *next != b'>');
+    let after_name = |rest: &[u8]| {
+        let end = rest.iter().position(|b| !b.is_ascii_alphanumeric() && *b != b'_');
+        end.is_some_and(|end| matches!(rest[end], b'/' | b'\\'))
+    };
+    holds(b"..")
         || holds(b"&#")
-        || holds(b"$") && holds(b"\\")
-        || text.split(|&byte| byte == b'$').skip(1).any(|rest| {
-            let name = rest.iter().position(|b| !b.is_ascii_alphanumeric() && *b != b'_');
-            name.is_some_and(|end| rest[end] == b'/')
-        })
+        || text.windows(3).any(absolute)
+        || text.split(|&byte| byte == b'$').skip(1).any(after_name)
 }
