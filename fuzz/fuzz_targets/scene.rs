@@ -1,4 +1,4 @@
-//! Scene files with all that they mean, which is read from a scratch folder that holds one file of every kind: no panic.
+//! Scene files with all that they mean, which is read from a scratch folder that holds files of every kind: no panic.
 #![no_main]
 
 #[path = "../../crates/scene/tests/samples/mod.rs"]
@@ -12,10 +12,16 @@ use etendue_scene::{LoadOptions, load_scene};
 use libfuzzer_sys::fuzz_target;
 use tempfile::TempDir;
 
+/// What the seeds name.
+const ASSETS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/scenes/assets");
+
 static FOLDER: LazyLock<TempDir> = LazyLock::new(|| {
     let folder = tempfile::tempdir().expect("a temporary folder");
     for (name, bytes) in samples::samples() {
         fs::write(folder.path().join(name), bytes).expect("a writable folder");
+    }
+    for entry in fs::read_dir(ASSETS).expect("the repository").flatten() {
+        fs::copy(entry.path(), folder.path().join(entry.file_name())).expect("a writable folder");
     }
     folder
 });
