@@ -28,7 +28,10 @@ seconds=$((${TOTAL:-$((seconds * ${#names[@]}))} / ${#names[@]}))
 mkdir -p fuzz/artifacts fuzz/corpus
 cargo run -q --release -p etendue-scene --example fuzz_seeds -- fuzz/corpus
 cp tests/scenes/plugins/*.xml fuzz/corpus/xml
-cp tests/scenes/plugins/*.xml fuzz/corpus/scene
+for scene in tests/scenes/*.xml tests/scenes/plugins/*.xml; do
+  # Their assets are beside the scenes that are attacked.
+  sed 's#"[./]*assets/#"#' "$scene" >"fuzz/corpus/scene/$(basename "$scene")"
+done
 cargo +nightly fuzz build
 
 failures=0

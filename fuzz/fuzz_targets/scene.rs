@@ -1,4 +1,4 @@
-//! Scene files with all that they mean, which is read from a scratch folder that holds one file of every kind: no panic.
+//! Scene files with all that they mean, which is read from a scratch folder that holds files of every kind: no panic.
 #![no_main]
 
 #[path = "../../crates/scene/tests/samples/mod.rs"]
@@ -12,10 +12,16 @@ use etendue_scene::{LoadOptions, load_scene};
 use libfuzzer_sys::fuzz_target;
 use tempfile::TempDir;
 
+/// What the seeds name.
+const ASSETS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/scenes/assets");
+
 static FOLDER: LazyLock<TempDir> = LazyLock::new(|| {
     let folder = tempfile::tempdir().expect("a temporary folder");
     for (name, bytes) in samples::samples() {
         fs::write(folder.path().join(name), bytes).expect("a writable folder");
+    }
+    for entry in fs::read_dir(ASSETS).expect("the repository").flatten() {
+        fs::copy(entry.path(), folder.path().join(entry.file_name())).expect("a writable folder");
     }
     folder
 });
@@ -34,13 +40,13 @@ fuzz_target!(|data: &[u8]| {
 /// character's number; or one that goes up.
 fn leaves(text: &[u8]) -> bool {
     let holds = |part: &[u8]| text.windows(part.len()).any(|window| window == part);
-    holds(b"\"/")
-        || holds(b"'/")
-        || holds(b"..")
+    let absolute = |window: &[u8]| matches!(window, [b'"' | b'\'', b'/', next] if *next != b'>');
+    let after_name = |rest: &[u8]| {
+        let end = rest.iter().position(|b| !b.is_ascii_alphanumeric() && *b != b'_');
+        end.is_some_and(|end| matches!(rest[end], b'/' | b'\\'))
+    };
+    holds(b"..")
         || holds(b"&#")
-        || holds(b"$") && holds(b"\\")
-        || text.split(|&byte| byte == b'$').skip(1).any(|rest| {
-            let name = rest.iter().position(|b| !b.is_ascii_alphanumeric() && *b != b'_');
-            name.is_some_and(|end| rest[end] == b'/')
-        })
+        || text.windows(3).any(absolute)
+        || text.split(|&byte| byte == b'$').skip(1).any(after_name)
 }

@@ -91,7 +91,7 @@ const SCENE: &str = r#"<scene version="3.0.0">
 </scene>
 "#;
 
-const SHAPES: &str = r#"<scene version="3.0.0">
+const SHAPES: &str = r##"<scene version="3.0.0">
 <shape type="shapegroup" id="group"><shape type="rectangle"><bsdf type="principled"><float name="metallic" value="0.5"/></bsdf></shape></shape>
 <shape type="instance"><ref id="group"/><transform name="to_world"><rotate y="1" angle="30"/><scale value="2"/><translate x="1"/>
 <matrix value="1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1"/></transform></shape>
@@ -99,10 +99,10 @@ const SHAPES: &str = r#"<scene version="3.0.0">
 <bsdf type="dielectric"><string name="int_ior" value="bk7"/></bsdf></shape>
 <shape type="disk"><emitter type="area"><spectrum name="radiance" value="400:1, 700:2"/></emitter></shape>
 <shape type="cube"><bsdf type="mask"><float name="opacity" value="0.5"/><bsdf type="plastic"/></bsdf></shape>
-<emitter type="point"><rgb name="intensity" value="\#ff8000"/></emitter>
+<emitter type="point"><rgb name="intensity" value="#ff8000"/></emitter>
 <emitter type="spot"><boolean name="unused" value="false"/></emitter>
 </scene>
-"#;
+"##;
 
 const OLD: &str = r#"<scene version="0.6.0">
 <integrator type="path"><integer name="maxDepth" value="3"/></integrator>
