@@ -1,6 +1,6 @@
 //! Names of what others refer to.
 
-use alloc::collections::BTreeSet;
+use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::format;
 use alloc::string::String;
 
@@ -8,6 +8,8 @@ use alloc::string::String;
 #[derive(Clone, Debug, Default)]
 pub(super) struct Names {
     taken: BTreeSet<String>,
+    /// The number to try next after a wish that was met before.
+    next: BTreeMap<String, u32>,
 }
 
 impl Names {
@@ -26,13 +28,14 @@ impl Names {
             "" => "unnamed",
             stem => stem,
         };
-        let mut number = 1_u32;
+        let next = self.next.entry(stem.to_lowercase()).or_insert(1);
         loop {
+            let number = *next;
+            *next += 1;
             let name = if number == 1 { stem.into() } else { format!("{stem}-{number}") };
             if self.taken.insert(name.to_lowercase()) {
                 return name;
             }
-            number += 1;
         }
     }
 }
