@@ -14,10 +14,10 @@ pub(super) struct Names {
 
 impl Names {
     /// A name that nobody has yet, after a wish: the wish itself with hyphens in place of all that is no letter, digit, `-` or
-    /// `_`, numbered if it is taken. Such a name is the same in XML, in the names of files and behind the `$` of neither.
+    /// `_`, numbered if it is taken: no such character means anything in XML, to Mitsuba or in the name of a file.
     pub(super) fn unique(&mut self, wish: &str) -> String {
-        // Longer ones are no names of files.
-        let kept = wish.chars().take(80).map(|c| match c {
+        // File systems have room for 255 bytes, of which a character takes up to four.
+        let kept = wish.chars().take(50).map(|c| match c {
             '-' | '_' => c,
             c if c.is_alphanumeric() => c,
             _ => '-',
