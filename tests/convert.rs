@@ -2,9 +2,9 @@
 
 mod common;
 
+use core::sync::atomic::AtomicBool;
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::sync::atomic::AtomicBool;
 
 use common::{Folder, repository, scene};
 use etendue_renderer::{RenderSettings, Renderer};
@@ -44,7 +44,7 @@ fn variants(path: &Path) -> Vec<Vec<(String, String)>> {
 fn picture(scene: &Scene) -> Vec<[u32; 3]> {
     let settings = RenderSettings { samples_per_pixel: 1, ..RenderSettings::of_scene(scene) };
     let renderer = Renderer::new(scene, settings).expect("settings of the scene");
-    let rendering = renderer.render(&|progress| drop(progress), &AtomicBool::new(false));
+    let rendering = renderer.render(&|_| {}, &AtomicBool::new(false));
     rendering.image.pixels().iter().map(|pixel| pixel.to_array().map(f32::to_bits)).collect()
 }
 

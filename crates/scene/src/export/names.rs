@@ -1,6 +1,6 @@
 //! Names of what others refer to.
 
-use alloc::collections::BTreeSet;
+use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::format;
 use alloc::string::String;
 
@@ -8,14 +8,16 @@ use alloc::string::String;
 #[derive(Clone, Debug, Default)]
 pub(super) struct Names {
     taken: BTreeSet<String>,
+    /// The number to try next after a wish that was met before.
+    next: BTreeMap<String, u32>,
 }
 
 impl Names {
     /// A name that nobody has yet, after a wish: the wish itself with hyphens in place of all that is no letter, digit, `-` or
-    /// `_`, numbered if it is taken. Such a name is the same in XML, in the names of files and behind the `$` of neither.
+    /// `_`, numbered if it is taken: no such character means anything in XML, to Mitsuba or in the name of a file.
     pub(super) fn unique(&mut self, wish: &str) -> String {
-        // Longer ones are no names of files.
-        let kept = wish.chars().take(80).map(|c| match c {
+        // File systems have room for 255 bytes, of which a character takes up to four.
+        let kept = wish.chars().take(50).map(|c| match c {
             '-' | '_' => c,
             c if c.is_alphanumeric() => c,
             _ => '-',
@@ -26,13 +28,14 @@ impl Names {
             "" => "unnamed",
             stem => stem,
         };
-        let mut number = 1_u32;
+        let next = self.next.entry(stem.to_lowercase()).or_insert(1);
         loop {
+            let number = *next;
+            *next += 1;
             let name = if number == 1 { stem.into() } else { format!("{stem}-{number}") };
             if self.taken.insert(name.to_lowercase()) {
                 return name;
             }
-            number += 1;
         }
     }
 }

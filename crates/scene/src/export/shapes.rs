@@ -1,6 +1,6 @@
 //! Shapes, groups and instances.
 
-use alloc::collections::BTreeSet;
+use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::vec::Vec;
 
 use etendue_math::glam::DAffine3;
@@ -25,7 +25,7 @@ pub(super) fn elements(exporter: &mut Exporter<'_>) -> Vec<Element> {
     }));
     items.sort_unstable();
     let mut elements = Vec::new();
-    let mut groups = Vec::new();
+    let mut groups = BTreeMap::new();
     for (shape, group) in items {
         let Some(group) = group else {
             elements.extend(self::shape(exporter, shape));
@@ -39,11 +39,11 @@ pub(super) fn elements(exporter: &mut Exporter<'_>) -> Vec<Element> {
         let name = exporter.name("group");
         let element = Element::plugin("shape", "shapegroup").attribute("id", name.clone());
         elements.push(element.with_all(shapes));
-        groups.push((group, name));
+        groups.insert(group, name);
     }
     let instances = geometry.instances().filter_map(|(group, place)| {
-        let (_, name) = groups.iter().find(|(known, _)| *known == group)?;
-        let instance = Element::plugin("shape", "instance").with(Element::reference(name));
+        let group = Element::reference(groups.get(&group)?);
+        let instance = Element::plugin("shape", "instance").with(group);
         Some(instance.with_all(to_world(place.affine())))
     });
     elements.extend(instances);
