@@ -63,7 +63,8 @@ mod tests {
     fn images_times_constants_are_images() {
         let mut textures = Textures::default();
         let image = BitmapImage::from_f32(2, 1, 1, &[0.25, 0.75]).expect("an image");
-        let bitmap = |filter| Bitmap::new(image.clone(), filter, Wrap::Clamp, UvTransform::IDENTITY);
+        let bitmap =
+            |filter| Bitmap::new(image.clone(), filter, Wrap::Clamp, UvTransform::IDENTITY);
         let smooth = textures.add(Texture::Bitmap(bitmap(Filter::Bilinear)));
         let sharp = textures.add(Texture::Bitmap(bitmap(Filter::Nearest)));
         let factor = textures.constant(Color::new(1.0, 0.5, 0.0));

@@ -7,9 +7,9 @@ use etendue_math::glam::DAffine3;
 
 use super::element::Element;
 use super::exporter::Exporter;
-use super::{fields, mesh};
 use super::textures::Meaning;
 use super::values::{boolean, to_world};
+use super::{fields, mesh};
 use crate::geometry::{GroupId, Shape, ShapeId};
 use crate::light::Light;
 

@@ -11,6 +11,7 @@ use etendue_math::glam::{DMat3, DVec3};
 use super::element::comment;
 use super::names::Names;
 use super::*;
+use crate::geometry::TriangleMesh;
 use crate::load::{TexCoords, parse_ply, parse_volume};
 use crate::medium::VolumeGrid;
 use crate::mitsuba::{LoadOptions, load_scene};
@@ -249,7 +250,9 @@ fn meshes_keep_their_bits_and_their_attributes() {
         element face 1\nproperty list uchar int vertex_indices\nproperty float t_x\nend_header\n\
         0.1 0 0 0 0 1 0.5 0.25 1 2 3 4\n1 1e-30 0 0 1 0 0 1 0 0 0 5\n0 1 3e30 1 0 0 1 1 4 5 6 7\n3 0 1 2 9\n";
     let path = Path::new("mesh.ply");
-    let read = |bytes: &[u8]| parse_ply(bytes, path, TexCoords::AsWritten).expect("a mesh").mesh;
+    let read = |bytes: &[u8]| {
+        TriangleMesh::from(parse_ply(bytes, path, TexCoords::AsWritten).expect("a mesh").mesh)
+    };
     let mesh = read(text.as_bytes());
     let names: Vec<_> = mesh.attributes().iter().map(|a| a.name.as_str()).collect();
     assert_eq!(names, ["vertex_color", "vertex_w", "face_t"]);

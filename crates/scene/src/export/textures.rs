@@ -2,17 +2,15 @@
 
 use alloc::string::String;
 
+use super::baked::baked;
 use super::element::Element;
 use super::exporter::Exporter;
+use super::loss::Loss;
 use super::values::{boolean, float, rgb, spectrum, string, transform};
 use super::volumes;
 use crate::Color;
 use crate::color::Curve;
-use super::baked::baked;
-use super::loss::Loss;
-use crate::texture::{
-    Bitmap, Checkerboard, Filter, Texture, TextureId, UvTransform, Wrap,
-};
+use crate::texture::{Bitmap, Checkerboard, Filter, Texture, TextureId, UvTransform, Wrap};
 
 /// What a texture stands for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -91,8 +89,7 @@ impl Exporter<'_> {
                 (self.name(&attribute.name), element)
             }
             // Mitsuba has neither; what is no single image is the mean.
-            Texture::Product(_)
-            | Texture::Threshold(_) => {
+            Texture::Product(_) | Texture::Threshold(_) => {
                 let name = self.name("bitmap");
                 let element = match baked(&self.scene.textures, id) {
                     Some(bitmap) => self.bitmap(&name, &bitmap, meaning),

@@ -78,9 +78,9 @@ mod tests {
         }
         assert_eq!(found([-1.0, 2.0, 0.0, 0.0]), [0.5]);
         assert_eq!(found([-0.25, 0.0, 1.0, 0.0]), [0.5]);
-        assert_eq!(found([0.25, 0.0, 1.0, 0.0]), []);
-        assert_eq!(found([1.0, 0.0, 0.0, 0.0]), []);
-        assert_eq!(found([2.0, -1.0, 0.0, 0.0]), []);
+        assert_eq!(found([0.25, 0.0, 1.0, 0.0]), [0.0_f64; 0]);
+        assert_eq!(found([1.0, 0.0, 0.0, 0.0]), [0.0_f64; 0]);
+        assert_eq!(found([2.0, -1.0, 0.0, 0.0]), [0.0_f64; 0]);
     }
 
     #[test]
@@ -95,6 +95,6 @@ mod tests {
         // The value at the end says that there is a root, the coefficients do not.
         assert_eq!(roots([1.0, -1.0 + 1e-16, 0.0, 0.0], -1e-20).count(), 1);
         assert_eq!(roots([1.0, -1.0, 0.0, 0.0], 1e-20).count(), 0);
-        assert_eq!(found([f64::NAN; 4]), []);
+        assert_eq!(found([f64::NAN; 4]), [0.0_f64; 0]);
     }
 }
