@@ -14,7 +14,7 @@ cd "$(dirname "$0")/.."
 seconds=${1:-20}
 shift || true
 images=(png jpg bmp tga hdr exr pfm)
-loaders=(xml scene obj mtl ply serialized vol "${images[@]}")
+loaders=(xml scene gltf obj mtl ply serialized vol "${images[@]}")
 names=()
 for name in "$@"; do
   if [ "$name" = loaders ]; then names+=("${loaders[@]}"); else names+=("$name"); fi
@@ -28,6 +28,7 @@ seconds=$((${TOTAL:-$((seconds * ${#names[@]}))} / ${#names[@]}))
 mkdir -p fuzz/artifacts fuzz/corpus
 cargo run -q --release -p etendue-scene --example fuzz_seeds -- fuzz/corpus
 cp tests/scenes/plugins/*.xml fuzz/corpus/xml
+cp scenes/gltf/*.gltf fuzz/corpus/gltf
 for scene in tests/scenes/*.xml tests/scenes/plugins/*.xml; do
   # Their assets are beside the scenes that are attacked.
   sed 's#"[./]*assets/#"#' "$scene" >"fuzz/corpus/scene/$(basename "$scene")"
@@ -65,6 +66,7 @@ for name in "${names[@]}"; do
     functions) attack functions functions 64 ;;
     xml | scene) attack "$name" "$name" 1048576 xml ;;
     obj | mtl | ply) attack "$name" "$name" 1048576 "$name" ;;
+    gltf) attack gltf gltf 1048576 json ;;
     serialized | vol) attack "$name" "$name" 1048576 ;;
     png | jpg | bmp | tga | hdr | exr | pfm) KIND=$name attack "$name" image 1048576 ;;
     *) MODEL=$name attack "$name" models 256 ;;

@@ -12,7 +12,11 @@ fn main() -> Result<(), Box<dyn Error>> {
     for (name, bytes) in samples::samples() {
         let kind = Path::new(&name).extension().and_then(|e| e.to_str()).unwrap_or_default();
         // Scenes are read twice: as a description, and with all that it means.
-        let targets: &[&str] = if kind == "xml" { &["xml", "scene"] } else { &[kind] };
+        let targets: &[&str] = match kind {
+            "xml" => &["xml", "scene"],
+            "glb" => &["gltf"],
+            kind => &[kind],
+        };
         for target in targets {
             let target = Path::new(&folder).join(target);
             fs::create_dir_all(&target)?;

@@ -56,7 +56,7 @@ fn check(mesh: &MeshArrays) {
 }
 
 fn is_scene(name: &str) -> bool {
-    Path::new(name).extension().is_some_and(|extension| extension == "xml")
+    Path::new(name).extension().is_some_and(|extension| extension == "xml" || extension == "glb")
 }
 
 /// The file cut off after each byte, and with each byte changed in three ways.
@@ -95,17 +95,17 @@ fn damaged_scenes_are_read_or_refused() {
     for (name, bytes) in &samples {
         fs::write(folder.path().join(name), bytes).expect("written");
     }
-    let path = folder.path().join("damaged.xml");
-    let read = |bytes: &[u8]| {
-        fs::write(&path, bytes).expect("written");
-        load_scene(&path, &LoadOptions::default()).map(|_| ())
-    };
     for (name, bytes) in samples.iter().filter(|(name, _)| is_scene(name)) {
+        let path = folder.path().join(format!("damaged-{name}"));
+        let read = |bytes: &[u8]| {
+            fs::write(&path, bytes).expect("written");
+            load_scene(&path, &LoadOptions::default()).map(|_| ())
+        };
         let whole = read(bytes);
         // One shows what is refused: an unused parameter, or a name for something that is not there.
         assert_eq!(
             whole.is_ok(),
-            name == "scene.xml" || name == "included.xml",
+            ["scene.xml", "included.xml", "model.glb"].contains(&name.as_str()),
             "{name}: {whole:?}"
         );
         let refused = damaged(bytes).filter(|bytes| read(bytes).is_err()).count();

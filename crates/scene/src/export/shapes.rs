@@ -72,7 +72,7 @@ fn shape(exporter: &mut Exporter<'_>, id: ShapeId) -> Option<Element> {
     let scene = exporter.scene;
     let surface = &scene.surfaces[id.0 as usize];
     let shape = &scene.geometry.shapes()[id.0 as usize];
-    if shape.primitive_count() == 0 {
+    if matches!(shape, Shape::Mesh(mesh) if mesh.triangles().is_empty()) {
         return None;
     }
     let name = exporter.name(&surface.name);

@@ -31,6 +31,7 @@ pub(crate) fn samples() -> Vec<(String, Vec<u8>)> {
         ),
         ("mesh.serialized".into(), serialized(4)),
         ("old.serialized".into(), serialized(3)),
+        ("model.glb".into(), glb()),
         ("grey.vol".into(), volume(1)),
         ("rgb.vol".into(), volume(3)),
         ("grey.pfm".into(), floats(b"Pf 2 3 -1.0\n", &[0.5; 6])),
@@ -210,6 +211,28 @@ fn serialized(version: u16) -> Vec<u8> {
     file
 }
 
+/// A binary glTF file of one triangle that shines.
+fn glb() -> Vec<u8> {
+    let mut json = GLTF.as_bytes().to_vec();
+    json.resize(json.len().next_multiple_of(4), b' ');
+    let mut binary = Vec::new();
+    for x in [0.0_f32, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0] {
+        binary.extend(x.to_le_bytes());
+    }
+    for index in [0_u16, 1, 2, 0] {
+        binary.extend(index.to_le_bytes());
+    }
+    let length = 12 + 8 + json.len() + 8 + binary.len();
+    let mut bytes = b"glTF\x02\0\0\0".to_vec();
+    bytes.extend((length as u32).to_le_bytes());
+    for (kind, chunk) in [(b"JSON", json), (b"BIN\0", binary)] {
+        bytes.extend((chunk.len() as u32).to_le_bytes());
+        bytes.extend(kind);
+        bytes.extend(chunk);
+    }
+    bytes
+}
+
 fn volume(channels: i32) -> Vec<u8> {
     let integers = [1, 2, 2, 2, channels];
     let header = integers.iter().flat_map(|number: &i32| number.to_le_bytes());
@@ -237,3 +260,12 @@ fn exr(compression: Compression) -> Vec<u8> {
     exr::image::Image::from_layer(layer).write().to_buffered(&mut bytes).expect("memory");
     bytes.into_inner()
 }
+
+const GLTF: &str = r#"{"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],
+"nodes":[{"mesh":0,"translation":[0,1,0]}],
+"meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1,"material":0}]}],
+"materials":[{"pbrMetallicRoughness":{"roughnessFactor":0.5},"emissiveFactor":[1,1,0]}],
+"buffers":[{"byteLength":44}],
+"bufferViews":[{"buffer":0,"byteLength":36},{"buffer":0,"byteOffset":36,"byteLength":6}],
+"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]},
+{"bufferView":1,"componentType":5123,"count":3,"type":"SCALAR"}]}"#;
