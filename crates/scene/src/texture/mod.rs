@@ -353,6 +353,7 @@ impl Textures {
     }
 
     /// Whether the texture is white everywhere, being constant.
+    #[cfg(feature = "std")]
     pub(crate) fn is_white(&self, id: TextureId) -> bool {
         self.is_constant(id) && self.mean(id) == Color::white()
     }

@@ -27,12 +27,12 @@ use spline::{Center, Part, Spline};
 /// radius is not 0. Both are met from outside only: a ray that starts inside passes through the wall. The front is
 /// outside. No points are drawn on curves.
 ///
-/// `u` is the angle around the curve over 2π ([`Around`]), `v` the number of the segment and the way in it over the
+/// `u` is the angle around the curve over 2π (`Around`), `v` the number of the segment and the way in it over the
 /// number of all segments.
 ///
 /// # Numerics
 /// Each segment of a linear curve is an object of the hierarchy, and so is each nearly straight part of a B-spline. Hits
-/// are found in `f64` ([`RoundCone::entry`], [`Spline::entry`]) from a place next to the object, and moved to its
+/// are found in `f64` (`RoundCone::entry`, `Spline::entry`) from a place next to the object, and moved to its
 /// surface at the distance of the radius from the curve. So a hit has the bound of rounding to `f32`, whatever the
 /// distance and the angle from which it is seen, and the noise of `f64` in coordinates of the curve.
 ///

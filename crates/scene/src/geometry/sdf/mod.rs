@@ -36,7 +36,7 @@ pub enum SdfNormals {
 /// # Numerics
 /// Each voxel with both signs at its corners is an object of the hierarchy, with a box that is no larger than the
 /// surface in it. Along a ray the field is a cubic there, of which all roots are found in `f64`
-/// ([`cubic::roots`]). At the faces of voxels it is computed from the samples of the face alone, at a place that both
+/// (`cubic::roots`). At the faces of voxels it is computed from the samples of the face alone, at a place that both
 /// voxels compute in the same way, so that no ray passes between two voxels.
 ///
 /// A hit has the bound of its error: half a unit in the last place of `f32`, and the noise of `f64` in the ray's way
