@@ -7,11 +7,19 @@ use crate::texture::{
     Bitmap, BitmapImage, Filter, Product, Texture, TextureId, Textures, Threshold,
 };
 
-/// The texture as one image that is looked up in the same way, if there is one: an image times constants, or where such a
-/// one, looked up without filter, reaches a limit.
-pub(super) fn baked(textures: &Textures, id: TextureId) -> Option<Bitmap> {
+/// A texture as one image.
+#[derive(Clone, Debug)]
+pub(super) struct Baked {
+    pub(super) bitmap: Bitmap,
+    /// Whether it is looked up to the same colours.
+    pub(super) is_exact: bool,
+}
+
+/// The texture as one image, if there is one: an image times constants, or where such a one reaches a limit. Where it is
+/// filtered before it is compared with the limit, the edges become those of texels.
+pub(super) fn baked(textures: &Textures, id: TextureId) -> Option<Baked> {
     match textures.get(id)? {
-        Texture::Bitmap(bitmap) => Some(bitmap.clone()),
+        Texture::Bitmap(bitmap) => Some(Baked { bitmap: bitmap.clone(), is_exact: true }),
         Texture::Product(Product { factors: [a, b] }) => {
             let constant = |id| match textures.get(id) {
                 Some(Texture::Constant(color)) => Some(*color),
@@ -22,28 +30,27 @@ pub(super) fn baked(textures: &Textures, id: TextureId) -> Option<Bitmap> {
                 (None, Some(factor)) => (factor, *a),
                 (None, None) => return None,
             };
-            mapped(&baked(textures, image)?, |color| color * factor)
+            let Baked { bitmap, is_exact } = baked(textures, image)?;
+            let bitmap = mapped(&bitmap, bitmap.filter(), |color| color * factor)?;
+            Some(Baked { bitmap, is_exact })
         }
         Texture::Threshold(Threshold { texture, limit }) => {
-            let image = baked(textures, *texture)?;
-            // Between texels a filter and a limit do not commute.
-            if image.filter() != Filter::Nearest {
-                return None;
-            }
-            let number = |color: Color| {
-                if image.image().is_grey() { color.r } else { color.luminance() }
-            };
-            mapped(&image, |color| {
+            let Baked { bitmap, is_exact } = baked(textures, *texture)?;
+            let is_grey = bitmap.image().is_grey();
+            let number = |color: Color| if is_grey { color.r } else { color.luminance() };
+            let is_exact = is_exact && bitmap.filter() == Filter::Nearest;
+            let bitmap = mapped(&bitmap, Filter::Nearest, |color| {
                 let white = number(color) >= *limit;
                 [f32::from(u8::from(white)); 3].into()
-            })
+            })?;
+            Some(Baked { bitmap, is_exact })
         }
         _ => None,
     }
 }
 
-/// The same with every texel changed; `None` where one is out of range.
-fn mapped(bitmap: &Bitmap, change: impl Fn(Color) -> Color) -> Option<Bitmap> {
+/// The same with every texel changed and another filter; `None` where a texel is out of range.
+fn mapped(bitmap: &Bitmap, filter: Filter, change: impl Fn(Color) -> Color) -> Option<Bitmap> {
     let image = bitmap.image();
     let (width, height) = (image.width(), image.height());
     let texels = (0..height).flat_map(|row| (0..width).map(move |column| (column, row)));
@@ -51,7 +58,7 @@ fn mapped(bitmap: &Bitmap, change: impl Fn(Color) -> Color) -> Option<Bitmap> {
         texels.flat_map(|(column, row)| change(image.texel(column, row)).to_array()).collect();
     let image = BitmapImage::from_f32(width, height, 3, &texels).ok()?;
     let [wrap, _] = bitmap.wraps();
-    Some(Bitmap::new(image, bitmap.filter(), wrap, *bitmap.uv()).with_wraps(bitmap.wraps()))
+    Some(Bitmap::new(image, filter, wrap, *bitmap.uv()).with_wraps(bitmap.wraps()))
 }
 
 #[cfg(test)]
@@ -69,14 +76,16 @@ mod tests {
         let sharp = textures.add(Texture::Bitmap(bitmap(Filter::Nearest)));
         let factor = textures.constant(Color::new(1.0, 0.5, 0.0));
         let tinted = textures.add(Texture::Product(Product { factors: [factor, smooth] }));
-        let texel = baked(&textures, tinted).expect("an image").image().texel(1, 0);
-        assert_eq!(texel.to_array(), [0.75, 0.375, 0.0]);
+        let tinted = baked(&textures, tinted).expect("an image");
+        assert!(tinted.is_exact);
+        assert_eq!(tinted.bitmap.image().texel(1, 0).to_array(), [0.75, 0.375, 0.0]);
         let limit = |texture| Texture::Threshold(Threshold { texture, limit: 0.5 });
-        let holes = textures.add(limit(sharp));
-        let holes = baked(&textures, holes).expect("an image");
-        assert_eq!([0, 1].map(|column| holes.image().texel(column, 0).r), [0.0, 1.0]);
-        let blurred = textures.add(limit(smooth));
-        assert!(baked(&textures, blurred).is_none());
+        for (texture, exact) in [(sharp, true), (smooth, false)] {
+            let holes = textures.add(limit(texture));
+            let Baked { bitmap, is_exact } = baked(&textures, holes).expect("an image");
+            assert_eq!([0, 1].map(|column| bitmap.image().texel(column, 0).r), [0.0, 1.0]);
+            assert_eq!((bitmap.filter(), is_exact), (Filter::Nearest, exact));
+        }
         let squared = textures.add(Texture::Product(Product { factors: [smooth, sharp] }));
         assert!(baked(&textures, squared).is_none());
     }

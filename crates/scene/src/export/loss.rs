@@ -35,6 +35,8 @@ pub enum Loss {
     SecondWrap,
     /// Textures multiplied or compared that are no single image.
     Product,
+    /// Edges where a filtered image reaches a limit.
+    Edges,
 }
 
 /// The effects that Mitsuba 3 does not have.
@@ -104,7 +106,10 @@ impl fmt::Display for Loss {
             Self::StretchedCamera => "the camera's uneven stretching or shearing is lost",
             Self::SecondWrap => "images have the same borders above and below as left and right",
             Self::Product => {
-                "textures that are multiplied, or filtered and compared with a limit, are lost: they are their mean"
+                "textures that are multiplied and no single image are lost: they are their mean"
+            }
+            Self::Edges => {
+                "edges where a filtered image reaches a limit are lost: they are those of its texels"
             }
             Self::SecondBackground => "of several lights around the scene only the first is there",
         };

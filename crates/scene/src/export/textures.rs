@@ -2,7 +2,9 @@
 
 use alloc::string::String;
 
-use super::baked::baked;
+use etendue_math::Spectrum as _;
+
+use super::baked::{Baked, baked};
 use super::element::Element;
 use super::exporter::Exporter;
 use super::loss::Loss;
@@ -68,10 +70,7 @@ impl Exporter<'_> {
         }
         let (name, element) = match texture {
             // Constants stand where they are used; this one would be of a scene that was changed meanwhile.
-            Texture::Constant(color) => {
-                let value = self.constant("color", *color, None, meaning);
-                (self.name("color"), Element::plugin("texture", "srgb").with(value))
-            }
+            Texture::Constant(color) => (self.name("color"), even(*color, meaning)),
             Texture::Bitmap(bitmap) => {
                 let name = self.name("bitmap");
                 let element = self.bitmap(&name, bitmap, meaning);
@@ -92,12 +91,15 @@ impl Exporter<'_> {
             Texture::Product(_) | Texture::Threshold(_) => {
                 let name = self.name("bitmap");
                 let element = match baked(&self.scene.textures, id) {
-                    Some(bitmap) => self.bitmap(&name, &bitmap, meaning),
+                    Some(Baked { bitmap, is_exact }) => {
+                        if !is_exact {
+                            self.losses.insert(Loss::Edges);
+                        }
+                        self.bitmap(&name, &bitmap, meaning)
+                    }
                     None => {
                         self.losses.insert(Loss::Product);
-                        let mean = self.scene.textures.mean(id);
-                        let value = self.constant("color", mean, None, meaning);
-                        Element::plugin("texture", "srgb").with(value)
+                        even(self.scene.textures.mean(id), meaning)
                     }
                 };
                 (name, element)
@@ -143,6 +145,12 @@ impl Exporter<'_> {
         let colors = colors.map(|(name, id)| self.texture(name, id, meaning));
         Element::plugin("texture", "checkerboard").with_all(colors).with_all(to_uv(&board.uv))
     }
+}
+
+/// A texture that is the same everywhere.
+fn even(color: Color, meaning: Meaning) -> Element {
+    let color = if meaning == Meaning::Share { color.map(|c| c.min(1.0)) } else { color };
+    Element::plugin("texture", "srgb").with(rgb("color", color))
 }
 
 /// `to_uv`; nothing for the map that changes nothing.
