@@ -35,6 +35,8 @@ pub enum Loss {
     SecondWrap,
     /// Textures multiplied or compared that are no single image.
     Product,
+    /// The colour that an attribute of a mesh is multiplied by.
+    Tint,
     /// Edges where a filtered image reaches a limit.
     Edges,
 }
@@ -107,6 +109,9 @@ impl fmt::Display for Loss {
             Self::SecondWrap => "images have the same borders above and below as left and right",
             Self::Product => {
                 "textures that are multiplied and no single image are lost: they are their mean"
+            }
+            Self::Tint => {
+                "attributes of meshes that a colour multiplies are multiplied by its luminance"
             }
             Self::Edges => {
                 "edges where a filtered image reaches a limit are lost: they are those of its texels"

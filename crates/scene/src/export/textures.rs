@@ -4,7 +4,7 @@ use alloc::string::String;
 
 use etendue_math::Spectrum as _;
 
-use super::baked::{Baked, baked};
+use super::baked::baked;
 use super::element::Element;
 use super::exporter::Exporter;
 use super::loss::Loss;
@@ -12,7 +12,10 @@ use super::values::{boolean, float, rgb, spectrum, string, transform};
 use super::volumes;
 use crate::Color;
 use crate::color::Curve;
-use crate::texture::{Bitmap, Checkerboard, Filter, Texture, TextureId, UvTransform, Wrap};
+use crate::texture::{
+    AttributeTexture, Bitmap, Checkerboard, Filter, Product, Texture, TextureId, Textures,
+    UvTransform, Wrap,
+};
 
 /// What a texture stands for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -81,26 +84,26 @@ impl Exporter<'_> {
                 (self.name("checkerboard"), element)
             }
             Texture::Attribute(attribute) => {
-                let scale = (attribute.scale != 1.0).then(|| float("scale", attribute.scale));
-                let element = Element::plugin("texture", "mesh_attribute")
-                    .with(string("name", &attribute.name))
-                    .with_all(scale);
-                (self.name(&attribute.name), element)
+                (self.name(&attribute.name), mesh_attribute(attribute, 1.0))
             }
-            // Mitsuba has neither; what is no single image is the mean.
+            // Mitsuba has neither; what is no single image or attribute is the mean.
             Texture::Product(_) | Texture::Threshold(_) => {
-                let name = self.name("bitmap");
-                let element = match baked(&self.scene.textures, id) {
-                    Some(Baked { bitmap, is_exact }) => {
-                        if !is_exact {
-                            self.losses.insert(Loss::Edges);
-                        }
-                        self.bitmap(&name, &bitmap, meaning)
+                let name = self.name("product");
+                let scene = self.scene;
+                let element = if let Some(image) = baked(&scene.textures, id) {
+                    if !image.is_exact {
+                        self.losses.insert(Loss::Edges);
                     }
-                    None => {
-                        self.losses.insert(Loss::Product);
-                        even(self.scene.textures.mean(id), meaning)
+                    self.bitmap(&name, &image.bitmap, meaning)
+                } else if let Some((factor, attribute)) = tinted_attribute(&scene.textures, texture)
+                {
+                    if factor != Color::splat(factor.r) {
+                        self.losses.insert(Loss::Tint);
                     }
+                    mesh_attribute(attribute, factor.luminance())
+                } else {
+                    self.losses.insert(Loss::Product);
+                    even(scene.textures.mean(id), meaning)
                 };
                 (name, element)
             }
@@ -145,6 +148,29 @@ impl Exporter<'_> {
         let colors = colors.map(|(name, id)| self.texture(name, id, meaning));
         Element::plugin("texture", "checkerboard").with_all(colors).with_all(to_uv(&board.uv))
     }
+}
+
+/// A constant and the attribute that it multiplies.
+fn tinted_attribute<'t>(
+    textures: &'t Textures,
+    texture: &Texture,
+) -> Option<(Color, &'t AttributeTexture)> {
+    let Texture::Product(Product { factors }) = texture else { return None };
+    match factors.map(|factor| textures.get(factor)) {
+        [Some(Texture::Constant(color)), Some(Texture::Attribute(attribute))]
+        | [Some(Texture::Attribute(attribute)), Some(Texture::Constant(color))] => {
+            Some((*color, attribute))
+        }
+        _ => None,
+    }
+}
+
+/// An attribute of a mesh, times a factor.
+fn mesh_attribute(attribute: &AttributeTexture, factor: f32) -> Element {
+    let scale = attribute.scale * factor;
+    Element::plugin("texture", "mesh_attribute")
+        .with(string("name", &attribute.name))
+        .with_all((scale != 1.0).then(|| float("scale", scale)))
 }
 
 /// A texture that is the same everywhere.
