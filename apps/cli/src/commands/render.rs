@@ -138,7 +138,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     let mut loaded = load(&arguments.scene.scene, &arguments.load_options())?;
     loaded.scene.path.spectral |= arguments.spectral;
     let mut layers = arguments.aov.clone();
-    if output.check_layers().is_ok() {
+    if output.has_layers() {
         layers.extend(loaded.layers.into_iter().map(Aov::from));
     } else if !loaded.layers.is_empty() {
         eprintln!("etendue: warning: only EXR pictures have the layers that the scene asks for");

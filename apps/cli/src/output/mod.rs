@@ -66,9 +66,14 @@ impl Output {
         Ok(Self { destination: Destination::check(path)?, format })
     }
 
-    /// Checks that the format has room for layers.
+    /// Whether the format has room for layers.
+    pub(crate) fn has_layers(&self) -> bool {
+        self.format == Format::Exr
+    }
+
+    /// Refuses a format that has no room for layers.
     pub(crate) fn check_layers(&self) -> Result<(), Failure> {
-        if self.format == Format::Exr {
+        if self.has_layers() {
             return Ok(());
         }
         Err(Failure::usage(format!(

@@ -12,7 +12,7 @@ use super::ior;
 use super::reader::PluginReader;
 use crate::SceneError;
 use crate::material::RelativeDispersion;
-use crate::xml::{nearest, parse_list};
+use crate::xml::nearest;
 
 /// The relative index of an interface, and how it depends on the wavelength where it does: `int_ior` with its Abbe number
 /// `abbe`, or `glass`, `cauchy` or `sellmeier`, and `ext_ior`.
@@ -82,8 +82,7 @@ fn given(reader: &mut PluginReader<'_>) -> Result<Option<(&'static str, Dispersi
 
 /// The numbers of a list.
 fn coefficients(reader: &mut PluginReader<'_>, name: &'static str) -> Result<Vec<f64>, SceneError> {
-    let text = reader.string(name)?.unwrap_or_default();
-    parse_list(text).map_err(|item| reader.error(name, format!("“{item}” is no number")))
+    Ok(reader.numbers(name)?.unwrap_or_default())
 }
 
 fn unknown(reader: &PluginReader<'_>, name: &str) -> SceneError {

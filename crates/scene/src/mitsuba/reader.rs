@@ -10,7 +10,7 @@ use etendue_math::glam::{DMat4, DVec3};
 use super::Context;
 use crate::geometry::{Animation, Placement, Transform, TransformError};
 use crate::texture::UvTransform;
-use crate::xml::{Child, Keyframe, Kind, Leniency, Node, Property, Value, nearest};
+use crate::xml::{Child, Keyframe, Kind, Leniency, Node, Property, Value, nearest, parse_list};
 use crate::{Location, SceneError, Warning};
 
 /// The parameters of a plugin, each of which counts as read once it was asked for.
@@ -131,6 +131,14 @@ impl<'a> PluginReader<'a> {
             Value::String(text) => Some(text.as_str()),
             _ => None,
         })
+    }
+
+    /// The numbers of a string, separated by commas or blanks.
+    pub(super) fn numbers(&mut self, name: &'static str) -> Result<Option<Vec<f64>>, SceneError> {
+        let Some(text) = self.string(name)? else { return Ok(None) };
+        let numbers = parse_list(text);
+        let numbers = numbers.map_err(|item| format!("“{item}” in “{name}” is no number"));
+        numbers.map(Some).map_err(|message| self.error(name, message))
     }
 
     /// One of a few words, letter case aside; the first where the parameter is missing.

@@ -97,9 +97,7 @@ fn radiance_meter<'a>(
     let to_world =
         Transform::look_at(origin, origin + direction, direction.any_orthogonal_vector())
             .map_err(|_| reader.error("direction", "the direction has no length"))?;
-    let (film, sampling) = (film::of(reader, context)?, sampler::of(reader, context)?);
-    context.media.around_camera = medium::around(reader, context)?;
-    shutter(reader)?;
+    let (film, sampling) = surroundings(reader, context)?;
     let (near, far) = (NEAR_CLIP as f32, FAR_CLIP as f32);
     let camera = Camera::new(Projection::RadianceMeter, to_world, near, far, film.size);
     let camera =
@@ -112,15 +110,16 @@ fn irradiance_meter<'a>(
     reader: &mut PluginReader<'a>,
     context: &mut Context<'a>,
 ) -> Result<Sensor, SceneError> {
-    let refused = |message| SceneError::scene(reader.node().location.clone(), message);
-    let Some(shape) = context.metered.take() else {
-        return Err(refused(format!("{} must stand inside a shape", reader.title())));
+    let refused = |reader: &PluginReader<'_>, message| {
+        SceneError::scene(reader.node().location.clone(), message)
     };
-    let (film, sampling) = (film::of(reader, context)?, sampler::of(reader, context)?);
-    context.media.around_camera = medium::around(reader, context)?;
-    shutter(reader)?;
-    let camera = Camera::irradiance_meter(shape, film.size)
-        .map_err(|e| SceneError::scene(reader.node().location.clone(), format!("{e}")))?;
+    let Some(shape) = context.metered.take() else {
+        let message = format!("{} must stand inside a shape", reader.title());
+        return Err(refused(reader, message));
+    };
+    let (film, sampling) = surroundings(reader, context)?;
+    let camera =
+        Camera::irradiance_meter(shape, film.size).map_err(|e| refused(reader, format!("{e}")))?;
     Ok(Sensor { camera, film, sampling })
 }
 
@@ -132,18 +131,27 @@ pub(super) fn shutter(reader: &mut PluginReader<'_>) -> Result<Shutter, SceneErr
     Shutter::new(open, close).map_err(|e| reader.error(at, format!("{e}")))
 }
 
-/// What all sensors have: `to_world`, which may be an animation, the shutter, `near_clip` (0.01), `far_clip` (10 000),
-/// film, sampler and at most one medium, in which the camera stands.
-fn sensor<'a>(
+/// What all sensors have, wherever they stand: film, sampler, the shutter and at most one medium, in which the camera
+/// stands.
+fn surroundings<'a>(
     reader: &mut PluginReader<'a>,
     context: &mut Context<'a>,
-    projection: Projection,
-) -> Result<Sensor, SceneError> {
+) -> Result<(Film, SamplingSettings), SceneError> {
     context.media.around_camera = medium::around(reader, context)?;
     let film = film::of(reader, context)?;
     let sampling = sampler::of(reader, context)?;
     // Read already: shapes have to know it.
     shutter(reader)?;
+    Ok((film, sampling))
+}
+
+/// A camera with its surroundings, `to_world`, which may be an animation, `near_clip` (0.01) and `far_clip` (10 000).
+fn sensor<'a>(
+    reader: &mut PluginReader<'a>,
+    context: &mut Context<'a>,
+    projection: Projection,
+) -> Result<Sensor, SceneError> {
+    let (film, sampling) = surroundings(reader, context)?;
     let (to_world, motion) = reader.placement("to_world", context)?.into_parts();
     let near = reader.float("near_clip")?.unwrap_or(NEAR_CLIP) as f32;
     let far = reader.float("far_clip")?.unwrap_or(FAR_CLIP) as f32;

@@ -1,7 +1,6 @@
 //! Spectra given by a plugin: `regular`, `irregular` and `blackbody`.
 
 use alloc::format;
-use alloc::string::ToString;
 use alloc::vec::Vec;
 
 use etendue_math::Real;
@@ -11,7 +10,7 @@ use super::reader::PluginReader;
 use super::value::{Role, constant};
 use crate::SceneError;
 use crate::texture::TextureId;
-use crate::xml::{Node, SpectrumValue, Value, increasing, parse_list};
+use crate::xml::{Node, SpectrumValue, Value, increasing};
 
 /// The ends of what is visible, in nm.
 const VISIBLE: [f64; 2] = [360.0, 830.0];
@@ -129,11 +128,8 @@ fn range(reader: &mut PluginReader<'_>, default: Option<[f64; 2]>) -> Result<[f6
 
 /// The numbers of a string.
 fn list(reader: &mut PluginReader<'_>, name: &'static str) -> Result<Vec<f64>, SceneError> {
-    let Some(text) = reader.string(name)? else {
-        return Err(reader.error(name, format!("{} has no “{name}”", reader.title())));
-    };
-    parse_list(text).map_err(|item| {
-        let item = item.to_string();
-        reader.error(name, format!("“{item}” is not a finite number"))
-    })
+    match reader.numbers(name)? {
+        Some(numbers) => Ok(numbers),
+        None => Err(reader.error(name, format!("{} has no “{name}”", reader.title()))),
+    }
 }

@@ -9,7 +9,7 @@ use super::translate;
 use crate::SceneError;
 use crate::material::{Material, MaterialId, Perturbation};
 use crate::texture::Texture;
-use crate::xml::{Kind, parse_list};
+use crate::xml::Kind;
 
 /// A surface with holes: `opacity` (0.5) and one model inside.
 pub(super) fn mask<'a>(
@@ -75,13 +75,12 @@ pub(super) fn mixture<'a>(
     context: &mut Context<'a>,
 ) -> Result<MaterialId, SceneError> {
     let location = &reader.node().location;
-    let Some(weights) = reader.string("weights")? else {
+    let Some(weights) = reader.numbers("weights")? else {
         return Err(reader.error("weights", "the mixture has no “weights”"));
     };
-    let weights = match parse_list(weights) {
-        Ok(weights) if weights.iter().all(|&weight| weight >= 0.0) => weights,
-        _ => return Err(reader.error("weights", "“weights” must be numbers that are not negative")),
-    };
+    if weights.iter().any(|&weight| weight < 0.0) {
+        return Err(reader.error("weights", "“weights” must be numbers that are not negative"));
+    }
     let parts = reader.children(Kind::Bsdf, context);
     if parts.len() != weights.len() || parts.is_empty() {
         let message = format!("{} bsdfs have {} weights", parts.len(), weights.len());

@@ -12,7 +12,7 @@ use super::super::{Context, Family};
 use super::volume;
 use crate::SceneError;
 use crate::medium::{BlendPhase, Phase, TabulatedPhase};
-use crate::xml::{Kind, NodeId, parse_list};
+use crate::xml::{Kind, NodeId};
 
 /// The phase functions there are.
 const PHASES: &Family<Phase> = &[
@@ -51,11 +51,9 @@ fn rayleigh<'a>(_: &mut PluginReader<'a>, _: &mut Context<'a>) -> Result<Phase, 
 
 /// `values`, a list, at cosines from −1 to 1.
 fn tabulated<'a>(reader: &mut PluginReader<'a>, _: &mut Context<'a>) -> Result<Phase, SceneError> {
-    let Some(text) = reader.string("values")? else {
+    let Some(values) = reader.numbers("values")? else {
         return Err(reader.error("values", "the table has no “values”"));
     };
-    let values = parse_list(text)
-        .map_err(|item| reader.error("values", format!("“{item}” in “values” is no number")))?;
     let values: Vec<f32> = values.into_iter().map(|value| value as f32).collect();
     if values.len() < 2 {
         return Err(reader.error("values", "“values” must be at least two"));
