@@ -44,7 +44,11 @@ mod binary;
 mod block;
 mod boxes;
 mod build;
+mod clip;
+mod collapse;
 mod node;
+mod presplit;
+mod reinsert;
 pub(super) mod simd;
 mod split;
 mod traverse;
@@ -59,7 +63,7 @@ use node::Node;
 use simd::Simd;
 use triangles::TriangleRay;
 
-pub(super) use build::TriangleRef;
+pub(super) use build::{TriangleRef, Triangles};
 pub(super) use traverse::{Found, Objects};
 
 /// Floats in a vector, children of a node, triangles of a block.
@@ -71,9 +75,15 @@ pub(super) struct Bvh {
     nodes: Vec<Node>,
     blocks: Vec<TriangleBlock>,
     bounds: Aabb,
+    left_out: usize,
 }
 
 impl Bvh {
+    /// How many triangles no ray can hit, and are not in it.
+    pub(super) fn left_out(&self) -> usize {
+        self.left_out
+    }
+
     /// A box that holds everything.
     pub(super) fn bounds(&self) -> Aabb {
         self.bounds
