@@ -54,12 +54,28 @@ fn closed() -> Vec<Closed> {
         }
         cube
     };
+    // Two cones with a common rim about a diagonal: long slivers with boxes all but empty.
+    let spindle = {
+        let axis = Vec3::ONE.normalize();
+        let side = axis.cross(Vec3::X).normalize();
+        let up = axis.cross(side);
+        let mut spindle = Mesh { positions: vec![axis * 100.0, axis * -100.0], triangles: vec![] };
+        let around = 300;
+        for i in 0..around {
+            let (sin, cos) = (std::f32::consts::TAU * i as f32 / around as f32).sin_cos();
+            spindle.positions.push(side * cos + up * sin);
+            let (a, b) = (2 + i, 2 + (i + 1) % around);
+            spindle.triangles.extend([[0, a, b], [1, b, a]]);
+        }
+        spindle
+    };
     let needle = sphere(4).map(|p| p * Vec3::new(1.0, 300.0, 0.02));
     vec![
         Closed { name: "sphere", mesh: sphere(6).map(bumpy), center: Vec3::ZERO, radius: 0.6 },
         Closed { name: "torus", mesh: torus, center: Vec3::X, radius: 0.2 },
         Closed { name: "cube", mesh: cube, center: Vec3::ZERO, radius: 0.9 },
         Closed { name: "needle", mesh: needle, center: Vec3::ZERO, radius: 0.01 },
+        Closed { name: "spindle", mesh: spindle, center: Vec3::ZERO, radius: 0.5 },
         Closed {
             name: "far sphere",
             mesh: sphere(5).map(|p| p + Vec3::new(1000.0, -2000.0, 500.0)),

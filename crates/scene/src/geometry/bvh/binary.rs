@@ -60,8 +60,8 @@ impl Tree {
         Self { nodes }
     }
 
-    /// The items of a leaf; none of an inner node.
-    pub(super) fn items<'a>(&self, node: u32, items: &'a [Item]) -> &'a [Item] {
+    /// What a leaf holds, of something there is for each item; nothing of an inner node.
+    pub(super) fn held<'a, T>(&self, node: u32, items: &'a [T]) -> &'a [T] {
         match self.nodes[node as usize].form {
             Form::Leaf { first, count } => &items[first as usize..(first + count) as usize],
             Form::Inner(_) => &[],

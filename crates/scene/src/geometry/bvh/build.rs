@@ -57,25 +57,28 @@ impl Bvh {
             return Self { nodes, blocks: Vec::new(), bounds: Aabb::EMPTY, left_out };
         }
         presplit(&mut items, triangles);
-        presplit(&mut items, triangles);
         let mut tree = Tree::build(&mut items, first_object);
         tree.reinsert();
+        // Of what is not needed any more nothing is kept: blocks take as much memory as all before them.
+        let numbers: Vec<u32> = items.iter().map(|item| item.number).collect();
+        drop(items);
         let mut wide = Wide {
             collapse: Collapse::new(&tree),
             tree: &tree,
-            items: &items,
+            numbers: &numbers,
             first_object,
             nodes: vec![Node::EMPTY],
             leaves: Vec::new(),
         };
         wide.fill(0, Tree::ROOT);
-        let Wide { nodes: filled, leaves, .. } = wide;
+        let Wide { nodes: filled, leaves, collapse, .. } = wide;
+        drop(collapse);
         let mut nodes = pages::with_capacity(filled.len());
         nodes.extend(filled);
         let mut blocks = pages::with_capacity(leaves.len());
         parallel::extend(&mut blocks, &leaves, |&leaf| {
-            let held = tree.items(leaf, &items).iter();
-            TriangleBlock::new(held.filter_map(|item| triangles.get(item.number)))
+            let held = tree.held(leaf, &numbers).iter();
+            TriangleBlock::new(held.filter_map(|&number| triangles.get(number)))
         });
         Self { nodes, blocks, bounds: tree.nodes[Tree::ROOT as usize].bounds, left_out }
     }
@@ -85,7 +88,8 @@ impl Bvh {
 struct Wide<'a> {
     tree: &'a Tree,
     collapse: Collapse,
-    items: &'a [Item],
+    /// Of all items, in the order of the tree's leaves.
+    numbers: &'a [u32],
     first_object: u32,
     nodes: Vec<Node>,
     /// The leaf of the tree that each block holds.
@@ -105,8 +109,8 @@ impl Wide<'_> {
                     self.fill(index, child);
                     Content::Node(index as u32)
                 }
-                Form::Leaf { .. } => match self.tree.items(child, self.items) {
-                    &[Item { number, .. }] if number >= self.first_object => {
+                Form::Leaf { .. } => match self.tree.held(child, self.numbers) {
+                    &[number] if number >= self.first_object => {
                         Content::Object(number - self.first_object)
                     }
                     _ => {

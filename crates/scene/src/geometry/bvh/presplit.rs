@@ -144,3 +144,75 @@ impl Grid {
         best
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::build::TriangleRef;
+    use super::*;
+    use etendue_math::glam::Vec3;
+
+    struct List(Vec<Corners>);
+
+    impl Triangles for List {
+        fn count(&self) -> u32 {
+            self.0.len() as u32
+        }
+
+        fn get(&self, number: u32) -> Option<TriangleRef> {
+            let corners = *self.0.get(number as usize)?;
+            Some(TriangleRef { corners, shape: 0, primitive: number })
+        }
+    }
+
+    fn items(list: &List) -> Vec<Item> {
+        let item = |(corners, number): (&Corners, u32)| Item {
+            bounds: Aabb::from_points(*corners),
+            number,
+        };
+        list.0.iter().zip(0..).map(item).collect()
+    }
+
+    /// Triangles from one corner of a cube to the opposite one, each a little beside the last.
+    fn diagonals() -> List {
+        let triangle = |i: u8| {
+            let shift = Vec3::new(0.01, -0.02, 0.013) * f32::from(i);
+            [shift, shift + Vec3::ONE, shift + Vec3::new(1.0, 1.01, 1.0)]
+        };
+        List((0..100).map(triangle).collect())
+    }
+
+    #[test]
+    fn parts_hold_all_of_their_triangles_in_smaller_boxes() {
+        let list = diagonals();
+        let whole = items(&list);
+        let mut parts = whole.clone();
+        presplit(&mut parts, &list);
+        assert!(parts.len() > whole.len() && parts.len() <= whole.len() * 4 / 3, "{}", parts.len());
+        let area = |items: &[Item]| items.iter().map(|item| item.bounds.half_area()).sum::<f32>();
+        assert!(area(&parts) < 0.9 * area(&whole));
+        for (number, [a, b, c]) in (0..).zip(&list.0) {
+            for i in 0_u8..=40 {
+                for j in 0..=(40 - i) {
+                    let (s, t) = (f32::from(i) / 40.0, f32::from(j) / 40.0);
+                    let p = *a + (*b - *a) * s + (*c - *a) * t;
+                    let inside = |item: &&Item| {
+                        // Coordinates up to 3, and so many roundings of the point.
+                        let slack = Vec3::splat(4.0 * 3.0 * f32::EPSILON);
+                        let (min, max) = (item.bounds.min - slack, item.bounds.max + slack);
+                        item.number == number && min.cmple(p).all() && p.cmple(max).all()
+                    };
+                    assert!(parts.iter().any(|item| inside(&item)), "{p} of {number}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn small_triangles_stay_whole() {
+        let small = |[a, b, c]: &Corners| [*a, *a + (*b - *a) * 0.01, *a + (*c - *a) * 0.01];
+        let list = List(diagonals().0.iter().map(small).collect());
+        let mut parts = items(&list);
+        presplit(&mut parts, &list);
+        assert_eq!(parts.len(), list.0.len());
+    }
+}

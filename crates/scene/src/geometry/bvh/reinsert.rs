@@ -35,12 +35,15 @@ impl Tree {
         if count == 0 {
             return;
         }
+        let area = |node: u32| self.nodes[node as usize].bounds.half_area();
+        order.select_nth_unstable_by(count - 1, |&a, &b| {
+            area(b).total_cmp(&area(a)).then(a.cmp(&b))
+        });
+        // In an order that no algorithm of a library decides.
+        let order = &mut order[..count];
+        order.sort_unstable();
         for _ in 0..ROUNDS {
-            let area = |node: u32| self.nodes[node as usize].bounds.half_area();
-            order.select_nth_unstable_by(count - 1, |&a, &b| {
-                area(b).total_cmp(&area(a)).then(a.cmp(&b))
-            });
-            let mut moves: Vec<Move> = parallel::map(&order[..count], |&node| self.search(node));
+            let mut moves: Vec<Move> = parallel::map_slowly(order, |&node| self.search(node));
             moves.retain(|m| m.gain > 0.0);
             moves.sort_unstable_by(|a, b| b.gain.total_cmp(&a.gain).then(a.node.cmp(&b.node)));
             let mut touched = vec![false; self.nodes.len()];

@@ -1,5 +1,7 @@
 //! Where to cut a range of items.
 
+use etendue_math::glam::Vec3A;
+
 use super::LANES;
 use super::binary::Item;
 use crate::geometry::Aabb;
@@ -16,24 +18,32 @@ pub(super) enum Cut {
 /// Bins along an axis, at most.
 const BINS: usize = 32;
 
-/// Boxes on one side of a cut.
+/// Boxes on one side of a cut, in vectors of four floats: most of the time of building is spent on their unions.
 #[derive(Clone, Copy)]
 struct Side {
-    bounds: Aabb,
+    min: Vec3A,
+    max: Vec3A,
     count: usize,
 }
 
 impl Side {
-    const EMPTY: Self = Self { bounds: Aabb::EMPTY, count: 0 };
+    const EMPTY: Self = Self { min: Vec3A::INFINITY, max: Vec3A::NEG_INFINITY, count: 0 };
+
+    fn of(item: &Item) -> Self {
+        let Aabb { min, max } = item.bounds;
+        Self { min: min.into(), max: max.into(), count: 1 }
+    }
 
     fn add(&self, other: &Self) -> Self {
-        Self { bounds: self.bounds.union(other.bounds), count: self.count + other.count }
+        let (min, max) = (self.min.min(other.min), self.max.max(other.max));
+        Self { min, max, count: self.count + other.count }
     }
 
     /// In units of one item in a box of half area 1. Counting blocks instead would be true to the
     /// traversal, yet makes trees with fuller blocks and larger boxes that are a fifth slower.
     fn cost(&self) -> f32 {
-        self.bounds.half_area() * self.count as f32
+        let bounds = Aabb { min: self.min.into(), max: self.max.into() };
+        bounds.half_area() * self.count as f32
     }
 }
 
@@ -105,10 +115,10 @@ fn best_plane(items: &[Item], centers: &Aabb) -> Option<Plane> {
     // All axes in one pass: what takes time is reading the items.
     let mut sides = [[Side::EMPTY; BINS]; 3];
     for item in items {
+        let one = Side::of(item);
         for (bins, sides) in axes.iter().zip(&mut sides) {
             let side = &mut sides[bins.of(item)];
-            side.bounds = side.bounds.union(item.bounds);
-            side.count += 1;
+            *side = side.add(&one);
         }
     }
     let mut best: Option<Plane> = None;
