@@ -39,6 +39,35 @@ impl Tile {
     }
 }
 
+/// Edge of the squares of a tile whose pixels of one colour are a group.
+const GROUP_EDGE: u32 = 4;
+
+impl Tile {
+    /// Groups of up to eight neighbouring pixels, all of one colour of a chessboard over the film: of each the places in the tile,
+    /// row by row.
+    pub(crate) fn groups(self) -> impl Iterator<Item = impl Iterator<Item = usize>> {
+        let [width, height] = self.size;
+        let squares = (0..height.div_ceil(GROUP_EDGE))
+            .flat_map(move |y| (0..width.div_ceil(GROUP_EDGE)).map(move |x| [x, y]));
+        squares.flat_map(|square| [0, 1].map(|colour| (square, colour))).map(move |(square, colour)| {
+            let range = |axis: usize| {
+                let begin = square[axis] * GROUP_EDGE;
+                begin..(begin + GROUP_EDGE).min(self.size[axis])
+            };
+            let (columns, rows) = (range(0), range(1));
+            rows.flat_map(move |y| columns.clone().map(move |x| [x, y]))
+                .filter(move |[x, y]| (x + self.offset[0] + y + self.offset[1]) % 2 == colour)
+                .map(move |[x, y]| (y * width + x) as usize)
+        })
+    }
+
+    /// The pixel at a place.
+    pub(crate) fn pixel(self, place: usize) -> [u32; 2] {
+        let (width, place) = (self.size[0], place as u32);
+        [self.offset[0] + place % width, self.offset[1] + place / width]
+    }
+}
+
 /// How far along the Hilbert curve through the square of 2³² × 2³² cells a cell lies.
 ///
 /// # Source

@@ -7,7 +7,6 @@ mod task;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
-use etendue_renderer::progressive;
 use etendue_scene::film::Crop;
 use etendue_scene::{LoadOptions, SamplerKind};
 
@@ -94,21 +93,14 @@ enum Sampler {
 }
 
 /// Where samples go, by name.
-#[derive(Clone, Copy, Debug, clap::ValueEnum)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 enum Allocation {
-    /// Where the error is.
+    /// Where the error is, in rounds with an estimate of it.
     Adaptive,
+    /// Where a pilot of a quarter of them found the error to be large for the brightness of the pixel; no estimate.
+    Piloted,
     /// To all pixels alike.
     Uniform,
-}
-
-impl From<Allocation> for progressive::Allocation {
-    fn from(allocation: Allocation) -> Self {
-        match allocation {
-            Allocation::Adaptive => Self::Adaptive,
-            Allocation::Uniform => Self::Uniform,
-        }
-    }
 }
 
 impl Arguments {

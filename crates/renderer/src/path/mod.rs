@@ -5,6 +5,7 @@ mod dispersion;
 mod distances;
 mod first_hit;
 mod found_light;
+mod reuse;
 mod scatter;
 mod surfaces;
 mod transport;
@@ -27,6 +28,7 @@ use crate::statistics::RayCounts;
 
 pub(crate) use distances::Distances;
 pub(crate) use first_hit::FirstHit;
+pub(crate) use reuse::{MOST, SharedPath};
 pub(crate) use transport::{Carried, Prepared, Surfaces, Transport, Volumes};
 
 /// Solves the rendering equation for one ray at a time.

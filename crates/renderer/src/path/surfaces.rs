@@ -7,6 +7,7 @@ use etendue_scene::color::Primaries;
 use etendue_scene::geometry::{Ray, Rays};
 use etendue_scene::material::Varying;
 
+use super::reuse::SharedPath;
 use super::transport::{Surfaces, Transport};
 use super::{Fate, PathTracer, Walk};
 use crate::statistics::RayCounts;
@@ -48,5 +49,24 @@ impl Transport for Surfaces {
             }
         }
         radiance
+    }
+
+    #[inline(always)]
+    fn path_to_share<S: Sampler, R: Rays>(
+        tracer: &PathTracer<'_, '_, R, Primaries>,
+        camera_ray: Ray,
+        points: &S,
+        rays: &mut RayCounts,
+    ) -> SharedPath {
+        tracer.path_to_share(camera_ray, points, rays)
+    }
+
+    #[inline(always)]
+    fn share<R: Rays>(
+        tracer: &PathTracer<'_, '_, R, Primaries>,
+        paths: &mut [SharedPath],
+        rays: &mut RayCounts,
+    ) {
+        tracer.share(paths, rays);
     }
 }

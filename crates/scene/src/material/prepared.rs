@@ -153,6 +153,17 @@ impl<'a, C: Channels> PreparedBsdf<'a, C> {
         }
     }
 
+    /// The albedo of an ideal diffuse surface looked at from its front; `None` for all others.
+    #[inline(always)]
+    pub fn lambertian(&self, wo: Vec3) -> Option<C::Color> {
+        match &self.cover {
+            Cover::Whole(Placed { model: Model::Lambert(model), up }) if wo.z * up > 0.0 => {
+                model.albedo(Vec3::Z)
+            }
+            _ => None,
+        }
+    }
+
     /// Whether [`sample`](Bsdf::sample) depends on `u_lobe`; where not, no number need be drawn for
     /// it.
     #[inline(always)]

@@ -53,7 +53,10 @@ pub(super) fn draw(task: &Task, scene: &Scene, interrupt: &Interrupt) -> Result<
     };
     let progress = ProgressDisplay::new("rendering", task.quiet);
     let (mut drawing, variance, samples) = match task.method {
-        Method::Plain => (plain(&renderer, interrupt, &progress), Image::black([0, 0]), Vec::new()),
+        method @ (Method::Plain | Method::Piloted) => {
+            let drawing = plain(&renderer, method, interrupt, &progress);
+            (drawing, Image::black([0, 0]), Vec::new())
+        }
         Method::Progressive { goal, time } => {
             let limits = Limits { goal, time, start };
             progressive(&renderer, &limits, interrupt, &progress)
@@ -65,11 +68,20 @@ pub(super) fn draw(task: &Task, scene: &Scene, interrupt: &Interrupt) -> Result<
     Ok(drawing)
 }
 
-fn plain(renderer: &Renderer<'_>, interrupt: &Interrupt, progress: &ProgressDisplay) -> Drawing {
+/// A picture without an estimate of its error.
+fn plain(
+    renderer: &Renderer<'_>,
+    method: Method,
+    interrupt: &Interrupt,
+    progress: &ProgressDisplay,
+) -> Drawing {
     let report = |now: etendue_renderer::Progress| {
         progress.update(Standing::parts(now.finished, now.total));
     };
-    let rendering = renderer.render(&report, interrupt.flag());
+    let rendering = match method {
+        Method::Piloted => renderer.render_piloted(&report, interrupt.flag()).rendering,
+        _ => renderer.render(&report, interrupt.flag()),
+    };
     let finished = rendering.progress.finished == rendering.progress.total;
     Drawing {
         image: rendering.image,

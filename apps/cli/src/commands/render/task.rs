@@ -5,7 +5,7 @@ use std::time::Duration;
 use etendue_renderer::progressive::{Allocation, Goal};
 use etendue_scene::Scene;
 
-use super::Arguments;
+use super::{Allocation as Named, Arguments};
 use crate::failure::Failure;
 use crate::output::Aov;
 use crate::progress::Quiet;
@@ -33,6 +33,8 @@ pub(super) struct Task {
 pub(super) enum Method {
     /// The scene's number of samples, pixel by pixel.
     Plain,
+    /// The scene's number of samples in the mean, after a pilot.
+    Piloted,
     /// In rounds, with an estimate of the error.
     Progressive { goal: Goal, time: Option<Duration> },
 }
@@ -41,7 +43,7 @@ impl Task {
     /// * `layers`: each once.
     ///
     /// # Errors
-    /// An error is to be estimated from less than two samples.
+    /// An error is to be estimated from less than two samples, or where there is no estimate.
     pub(super) fn new(
         arguments: &Arguments,
         layers: Vec<Aov>,
@@ -51,14 +53,26 @@ impl Task {
         let halves = layers.iter().any(|aov| aov.is_of_samples());
         let of_scene = scene.sampling.samples_per_pixel;
         let limit = if open_ended { arguments.spp } else { Some(of_scene) };
-        let method = if open_ended || halves || arguments.allocation.is_some() {
+        let method = if arguments.allocation == Some(Named::Piloted) {
+            if open_ended || halves {
+                return Err(Failure::usage(
+                    "--allocation piloted has no estimate of the error, which --error, --time and the layers variance and \
+                     samples need; take adaptive",
+                ));
+            }
+            Method::Piloted
+        } else if open_ended || halves || arguments.allocation.is_some() {
             if limit == Some(1) {
                 return Err(Failure::usage(
                     "an error is estimated from two samples per pixel at least; ask for --spp 2 or more",
                 ));
             }
             let usual = if open_ended { Allocation::Adaptive } else { Allocation::Uniform };
-            let allocation = arguments.allocation.map_or(usual, Allocation::from);
+            let allocation = match arguments.allocation {
+                Some(Named::Adaptive) => Allocation::Adaptive,
+                Some(Named::Uniform) => Allocation::Uniform,
+                Some(Named::Piloted) | None => usual,
+            };
             let goal = Goal { allocation, samples_per_pixel: limit, error: arguments.error };
             Method::Progressive { goal, time: arguments.time }
         } else {
