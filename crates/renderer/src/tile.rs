@@ -49,16 +49,18 @@ impl Tile {
         let [width, height] = self.size;
         let squares = (0..height.div_ceil(GROUP_EDGE))
             .flat_map(move |y| (0..width.div_ceil(GROUP_EDGE)).map(move |x| [x, y]));
-        squares.flat_map(|square| [0, 1].map(|colour| (square, colour))).map(move |(square, colour)| {
-            let range = |axis: usize| {
-                let begin = square[axis] * GROUP_EDGE;
-                begin..(begin + GROUP_EDGE).min(self.size[axis])
-            };
-            let (columns, rows) = (range(0), range(1));
-            rows.flat_map(move |y| columns.clone().map(move |x| [x, y]))
-                .filter(move |[x, y]| (x + self.offset[0] + y + self.offset[1]) % 2 == colour)
-                .map(move |[x, y]| (y * width + x) as usize)
-        })
+        squares.flat_map(|square| [0, 1].map(|colour| (square, colour))).map(
+            move |(square, colour)| {
+                let range = |axis: usize| {
+                    let begin = square[axis] * GROUP_EDGE;
+                    begin..(begin + GROUP_EDGE).min(self.size[axis])
+                };
+                let (columns, rows) = (range(0), range(1));
+                rows.flat_map(move |y| columns.clone().map(move |x| [x, y]))
+                    .filter(move |[x, y]| (x + self.offset[0] + y + self.offset[1]) % 2 == colour)
+                    .map(move |[x, y]| (y * width + x) as usize)
+            },
+        )
     }
 
     /// The pixel at a place.

@@ -89,8 +89,10 @@ impl Joint {
         let squared = way.length_squared();
         let leaves = way.dot(self.shading);
         let arrives = -way.dot(branch.normal);
-        let right_sides =
-            leaves > 0.0 && arrives > 0.0 && way.dot(self.normal) > 0.0 && way.dot(branch.shading) < 0.0;
+        let right_sides = leaves > 0.0
+            && arrives > 0.0
+            && way.dot(self.normal) > 0.0
+            && way.dot(branch.shading) < 0.0;
         let coupling = leaves * arrives / (squared * squared);
         if right_sides && coupling.is_finite() { coupling } else { 0.0 }
     }
@@ -175,7 +177,9 @@ impl<R: Rays> PathTracer<'_, '_, R, Primaries> {
     pub(super) fn share(&self, paths: &mut [SharedPath], rays: &mut RayCounts) {
         for owner in 0..paths.len() {
             let Some(branch) = paths[owner].branch else { continue };
-            let Some(depth) = paths[owner].joint.as_ref().map(|joint| joint.depth) else { continue };
+            let Some(depth) = paths[owner].joint.as_ref().map(|joint| joint.depth) else {
+                continue;
+            };
             if branch.radiance.is_black() {
                 continue;
             }

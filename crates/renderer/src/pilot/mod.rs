@@ -94,9 +94,8 @@ impl Configured for RenderPiloted<'_, '_> {
         passes.draw::<S, T>(&|_| first);
         let guide = Guide::new(crop.size, &passes.map(PilotPixel::pilot));
         let counts = guide.samples(first, mean);
-        let index = |[x, y]: [u32; 2]| {
-            ((y - crop.offset[1]) * crop.size[0] + x - crop.offset[0]) as usize
-        };
+        let index =
+            |[x, y]: [u32; 2]| ((y - crop.offset[1]) * crop.size[0] + x - crop.offset[0]) as usize;
         passes.draw::<S, T>(&|pixel| counts[index(pixel)]);
         let pixels = passes.map(PilotPixel::mean);
         let samples = passes.map(PilotPixel::drawn);
@@ -199,9 +198,8 @@ impl<S: Sampler, T: Transport> Task for ExtendTile<'_, '_, '_, S, T> {
             let begin = members.iter().map(|member| member.begin).min().unwrap_or(0);
             let end = members.iter().map(|member| member.extension.end()).max().unwrap_or(0);
             for sample in begin..end {
-                let taking = |member: &Member<'_>| {
-                    (member.begin..member.extension.end()).contains(&sample)
-                };
+                let taking =
+                    |member: &Member<'_>| (member.begin..member.extension.end()).contains(&sample);
                 let mut paths = [SharedPath::default(); MOST];
                 let mut weights = [0.0; MOST];
                 let mut count = 0;

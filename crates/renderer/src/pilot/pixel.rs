@@ -171,7 +171,8 @@ mod tests {
         let mut pixel = PilotPixel::default();
         extended(&mut pixel, &[1.0, 3.0, 2.0, 4.0, 3.0, 5.0, 4.0, 6.0]);
         // Runs of 2, 3, 4 and 5: their mean has the variance (1.5² + 0.5² + 0.5² + 1.5²) / (4 · 3).
-        let pilot = Pilot { mean: Color::splat(3.5), variance: Color::splat(5.0 / 12.0), rays: 3.0 };
+        let pilot =
+            Pilot { mean: Color::splat(3.5), variance: Color::splat(5.0 / 12.0), rays: 3.0 };
         assert!((pixel.pilot().variance.r - pilot.variance.r).abs() < 1e-6, "a few roundings");
         assert_eq!((pixel.pilot().mean, pixel.pilot().rays), (pilot.mean, 3.0));
         extended(&mut pixel, &[8.0, f32::NAN]);
@@ -183,6 +184,9 @@ mod tests {
     fn less_than_two_runs_have_no_variance() {
         let mut pixel = PilotPixel::default();
         extended(&mut pixel, &[7.0]);
-        assert_eq!(pixel.pilot(), Pilot { mean: Color::splat(7.0), variance: Color::black(), rays: 3.0 });
+        assert_eq!(
+            pixel.pilot(),
+            Pilot { mean: Color::splat(7.0), variance: Color::black(), rays: 3.0 }
+        );
     }
 }

@@ -45,10 +45,9 @@
 //!
 //! On an AVX-512 processor, on the meshes of `tests/embree`:
 //!
-//! * boxes by a fused product and sum: 0.95 times, 1.03 on large scans. Six vectors of the ray more than without, of which two in three
-//!   are read from memory for each node;
+//! * boxes by a fused product and sum, with three vectors of the ray more to keep: 0.94–1.0 times, 1.03–1.06 on a scan of 400 000;
 //! * splitting triangles while ranges are cut (Stich's spatial splits, for an overlap above 10⁻⁵ of the scene): in an interior
-//!   0.90–0.95 times, in a stadium 0.75–0.9 although the expected cost is 0.9 times as high, on slivers nothing, since no single
+//!   0.87–0.92 times, in a stadium 0.73–0.86 although the expected cost is 0.9 times as high, on slivers nothing, since no single
 //!   cut pays for the triangles it doubles;
 //! * reinsertion of a tenth of the nodes, four times, instead of three tenths, six times: 0.9–0.95 times in a stadium.
 
