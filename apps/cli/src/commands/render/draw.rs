@@ -53,7 +53,7 @@ pub(super) fn draw(task: &Task, scene: &Scene, interrupt: &Interrupt) -> Result<
     };
     let progress = ProgressDisplay::new("rendering", task.quiet);
     let (mut drawing, variance, samples) = match task.method {
-        method @ (Method::Plain | Method::Piloted) => {
+        method @ (Method::Plain | Method::Reuse) => {
             let drawing = plain(&renderer, method, interrupt, &progress);
             (drawing, Image::black([0, 0]), Vec::new())
         }
@@ -79,7 +79,7 @@ fn plain(
         progress.update(Standing::parts(now.finished, now.total));
     };
     let rendering = match method {
-        Method::Piloted => renderer.render_piloted(&report, interrupt.flag()).rendering,
+        Method::Reuse => renderer.render_with_reuse(&report, interrupt.flag()),
         _ => renderer.render(&report, interrupt.flag()),
     };
     let finished = rendering.progress.finished == rendering.progress.total;
