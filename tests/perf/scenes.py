@@ -50,11 +50,8 @@ def glow(radiance):
     return f'<emitter type="area"><rgb name="radiance" value="{radiance}"/></emitter>'
 
 
-def bitmap(name, filename, repeat):
-    return (
-        f'<texture type="bitmap" name="{name}"><string name="filename" value="{filename}"/>'
-        f'<transform name="to_uv"><scale x="{repeat}" y="{repeat}"/></transform></texture>'
-    )
+def bitmap(name, filename):
+    return f'<texture type="bitmap" name="{name}"><string name="filename" value="{filename}"/></texture>'
 
 
 def rectangle(centre, towards, half, inside, up="0, 1, 0"):
@@ -209,17 +206,19 @@ def interior(folder, options):
     pictures.write_png(os.path.join(folder, "boards.png"), boards)
     pictures.write_png(os.path.join(folder, "paper.png"), paper)
     meshes.write_ply(os.path.join(folder, "knot.ply"), meshes.torus_knot(32, 320))
-    matte = f'<bsdf type="twosided"><bsdf type="diffuse">{bitmap("reflectance", "paper.png", 1)}</bsdf></bsdf>'
-    varnish = (
-        f'<bsdf type="twosided"><bsdf type="roughplastic">{bitmap("diffuse_reflectance", "boards.png", 1)}'
-        '<string name="distribution" value="ggx"/><float name="alpha" value="0.1"/></bsdf></bsdf>'
-    )
+    matte, varnish = '<ref id="matte"/>', '<ref id="varnish"/>'
+    materials = [
+        f'  <bsdf type="twosided" id="matte"><bsdf type="diffuse">{bitmap("reflectance", "paper.png")}</bsdf></bsdf>',
+        f'  <bsdf type="twosided" id="varnish"><bsdf type="roughplastic">{bitmap("diffuse_reflectance", "boards.png")}'
+        '<string name="distribution" value="ggx"/><float name="alpha" value="0.1"/></bsdf></bsdf>',
+    ]
     gilded = (
         '<bsdf type="principled"><rgb name="base_color" value="0.9, 0.6, 0.2"/><float name="metallic" value="0.8"/>'
         '<float name="roughness" value="0.3"/></bsdf>'
     )
     legs = [slab((a, b, 0), (a + 0.1, b + 0.1, 0.7), varnish) for a in (-0.8, 0.7) for b in (0.6, 1.5)]
     return document((-1.7, -1.8, 1.5), (0.2, 1, 0.8), 65, "\n".join([
+        *materials,
         rectangle((0, 0, 0), (0, 0, 1), (2, 2), varnish),
         rectangle((0, 0, 2.6), (0, 0, -1), (2, 2), WHITE),
         rectangle((0, 2, 1.3), (0, -1, 0), (2, 1.3), matte, up="0, 0, 1"),
