@@ -18,6 +18,9 @@ import program
 import scenes
 
 
+SUPERSCRIPTS = "⁰¹²³⁴⁵⁶⁷"
+
+
 class Bench:
     """A binary and a folder for scenes and pictures."""
 
@@ -57,7 +60,7 @@ def triangles(bench, chart):
         sample, rays = bench.time_per_sample(scene, 256, 8)
         clock, build, peak = bench.first_pixel(scene)
         rows.append([
-            f"10{"⁰¹²³⁴⁵⁶⁷"[exponent]}", f"{sample:.2f}", f"{1000 * sample / rays:.0f}", documents.significant(clock),
+            f"10{SUPERSCRIPTS[exponent]}", f"{sample:.2f}", f"{1000 * sample / rays:.0f}", documents.significant(clock),
             documents.significant(build), f"{peak / 2**20:.0f}", documents.significant(peak / count),
         ])
         time.append([count, sample])
@@ -77,7 +80,7 @@ def lights(bench, chart):
         scene = bench.scene("lights", lights=10**exponent)
         sample, rays = bench.time_per_sample(scene, 128, 16)
         clock, _, peak = bench.first_pixel(scene)
-        rows.append([f"10{"⁰¹²³⁴⁵⁶⁷"[exponent]}", f"{sample:.2f}", f"{rays:.2f}", documents.significant(clock), f"{peak / 2**20:.0f}"])
+        rows.append([f"10{SUPERSCRIPTS[exponent]}", f"{sample:.2f}", f"{rays:.2f}", documents.significant(clock), f"{peak / 2**20:.0f}"])
         time.append([10**exponent, sample])
         first.append([10**exponent, 1000 * clock])
     chart(

@@ -47,9 +47,7 @@ fn axis(value: &Value) -> Option<Axis> {
 }
 
 fn series(value: &Value) -> Option<Series> {
-    let point = |at: &Value| {
-        Some(Point { at: pair(at)?, filled: true, ..Point::default() })
-    };
+    let point = |at: &Value| Some(Point { at: pair(at)?, filled: true, ..Point::default() });
     Some(Series {
         name: string(&value["name"])?,
         style: Style::Line,
