@@ -18,6 +18,15 @@ def significant(x, digits=3):
     return f"{float(text):.0f}" if "e+" in text and abs(x) < 1e7 else text
 
 
+def part(path, name):
+    """The table in a part of a document: rows by the text of their first cells, cells by their columns' heads."""
+    with open(path, encoding="utf-8") as file:
+        text = file.read().split(f"<!-- begin {name} -->\n")[1].split(f"<!-- end {name} -->\n")[0]
+    lines = [[cell.strip() for cell in line.strip("|").split("|")] for line in text.splitlines() if line.startswith("|")]
+    head, _, *rows = lines
+    return {row[0]: dict(zip(head[1:], row[1:])) for row in rows}
+
+
 def publish(path, name, lines):
     """Prints the part, and writes it into the document if there is one."""
     print("\n".join(lines), flush=True)

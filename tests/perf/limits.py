@@ -69,7 +69,7 @@ def main():
     parser.add_argument("--etendue", default="target/release/etendue")
     parser.add_argument("--rounds", type=int, default=3)
     parser.add_argument("--document")
-    scenes.add_options(parser, triangles=300_000)
+    scenes.add_options(parser)
     options = parser.parse_args()
     copied, read = bandwidth()
     rows = []

@@ -68,8 +68,21 @@ def measure(folder, options):
                 {way: program.render(path, scene, output, "--spp", 16).seconds - starts[way] for way, path in binaries.items()}
                 for _ in range(options.rounds)
             ]
+            agree(name, binaries, scene, output)
             ratios[name] = {way: statistics.median(times["release"] / times[way] for times in rounds) for way in MEASURED[1:]}
     return ratios
+
+
+def agree(name, binaries, scene, output):
+    """Every binary renders the same bits."""
+    rendered = []
+    for path in binaries.values():
+        program.render(path, scene, output, "--size", "64x64", "--spp", 4)
+        with open(output, "rb") as file:
+            rendered.append(file.read())
+    differing = [way for way, picture in zip(binaries, rendered) if picture != rendered[0]]
+    if differing:
+        raise SystemExit(f"{name}: the pictures of {', '.join(differing)} are not that of {next(iter(binaries))}")
 
 
 def main():
@@ -79,7 +92,7 @@ def main():
     parser.add_argument("--folder", default="target/packagers")
     parser.add_argument("--rounds", type=int, default=5)
     parser.add_argument("--document")
-    scenes.add_options(parser, triangles=300_000)
+    scenes.add_options(parser)
     options = parser.parse_args()
     folder = os.path.abspath(options.folder)
     if options.build:

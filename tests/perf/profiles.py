@@ -38,6 +38,8 @@ NOUNS = {
     "loading": r"scene/src/(load|mitsuba|xml|gltf|parallel)|png-|/image-|zune|fdeflate|roxmltree|flate2",
     "output": r"apps/cli",
 }
+# What a renderer does that only follows rays.
+RAYS = ["traversal", "triangles", "other shapes"]
 OTHERS = {"float functions": r"libm|/m/|math/src/backend|compiler_builtins", "system": r""}
 
 
@@ -116,6 +118,8 @@ def main():
         [name, *(f"{100 * column.get(name, 0):.1f}" for column in columns.values())]
         for name in [*NOUNS, *OTHERS] if any(column.get(name, 0) >= 0.0005 for column in columns.values())
     ]
+    rays = [sum(column.get(name, 0) for name in RAYS) for column in columns.values()]
+    rows.append(["*rays: " + ", ".join(RAYS) + "*", *(f"{100 * share:.1f}" for share in rays)])
     lines = documents.table(["% of the time", *columns], rows)
     documents.publish(options.document, "profiles", [documents.machine() + ".", "", *lines])
 

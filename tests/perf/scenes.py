@@ -238,7 +238,7 @@ def interior(folder, options):
 SCENES = {scene.__name__: scene for scene in [box, plates, glass, surface, lights, door, interior]}
 
 
-def add_options(parser, triangles=1_000_000, lights=1024):
+def add_options(parser, triangles=300_000, lights=1024):
     parser.add_argument("--triangles", type=int, default=triangles)
     parser.add_argument("--lights", type=int, default=lights)
 
