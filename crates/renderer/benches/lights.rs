@@ -61,7 +61,7 @@ fn place(seed: u64, i: u64) -> (Vec3, Vec3) {
     let random = Independent::at(seed, [0, 0], i);
     let [x, y]: [f32; 2] = random.sample_2d(Dimension::camera(Decision::Film));
     let z: f32 = random.sample_1d(Dimension::camera(Decision::Lens));
-    let direction = random.sample_2d(Dimension::camera(Decision::Direction));
+    let direction: [f32; 2] = random.sample_2d(Dimension::camera(Decision::Direction));
     (Vec3::new(x, y, z) * 2.0 - 1.0, uniform_sphere::from_square(direction))
 }
 
