@@ -157,7 +157,8 @@ def main():
         pairs = [("Mitsuba independent", "étendue independent"), ("Mitsuba multijitter", "étendue sobol")]
         lines, memory = compare(options, pairs, contestants)
         print()
-        documents.publish(options.document, "pictures", [documents.machine() + ".", "", *lines, "", *memory])
+        what = f"{documents.machine()}; {options.size}², {options.spp} samples per pixel, {options.rounds} rounds."
+        documents.publish(options.document, "pictures", [what, "", *lines, "", *memory])
 
 
 if __name__ == "__main__":

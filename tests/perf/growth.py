@@ -4,7 +4,7 @@
 usage: growth.py [--etendue target/release/etendue] [--only triangles,threads] [--document docs/performance.md] [--images docs/images]
 
 Times of samples are processor times of one thread, less those of a picture of one pixel, the least of `--rounds` runs; where these
-are most of it (large meshes), the clock of the rendering. Time to the first pixel is the clock's, with all threads: reading the files,
+are most of it (large meshes), those while the program rendered. Time to the first pixel is the clock's, with all threads: reading the files,
 building the hierarchies, one sample. Memory is what the process has at most. Other work disturbs what the clock says. The plots are IMAGES/growth-NAME.svg, the tables go into the part `growth NAME` of the document.
 """
 import argparse
@@ -35,11 +35,12 @@ class Bench:
         """Microseconds of a sample and rays of a sample."""
         arguments = ["--size", f"{size}x{size}", *arguments]
         start = program.start(self.options.etendue, scene, self.output, *arguments).seconds
-        runs = [
-            program.render(self.options.etendue, scene, self.output, *arguments, "--spp", spp) for _ in range(self.options.rounds)
-        ]
-        whole = min(run.seconds for run in runs)
-        seconds = whole - start if start < whole / 2 else min(run.report["render_seconds"] for run in runs)
+        arguments += ["--spp", spp]
+        runs = [program.render(self.options.etendue, scene, self.output, *arguments) for _ in range(self.options.rounds)]
+        seconds = min(run.seconds for run in runs) - start
+        if start > seconds:
+            command = program.command(self.options.etendue, scene, self.output, *arguments)
+            seconds = min(program.rendering_seconds(command) for _ in range(self.options.rounds))
         samples = runs[0].report["samples"]
         return 1e6 * seconds / samples, runs[0].report["rays"] / samples
 
@@ -59,7 +60,7 @@ def triangles(bench, chart):
         scene = bench.scene("surface", triangles=10**exponent)
         # Two triangles to a quad of a square grid.
         count = 2 * int((10**exponent / 2) ** 0.5 + 0.5) ** 2
-        sample, rays = bench.time_per_sample(scene, 256, 8)
+        sample, rays = bench.time_per_sample(scene, 256, 16)
         clock, build, peak = bench.first_pixel(scene)
         rows.append([
             f"10{SUPERSCRIPTS[exponent]}", f"{sample:.2f}", f"{1000 * sample / rays:.0f}", documents.significant(clock),

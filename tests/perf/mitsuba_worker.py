@@ -35,9 +35,13 @@ class Mitsuba:
         self.process.communicate()
 
 
-def main():
-    import resource
+def peak_bytes():
+    """Most resident bytes so far; `getrusage` would tell of the parent if that was larger."""
+    with open("/proc/self/status", encoding="ascii") as file:
+        return next(int(line.split()[1]) * 1024 for line in file if line.startswith("VmHWM"))
 
+
+def main():
     import drjit
     import mitsuba
 
@@ -72,7 +76,7 @@ def main():
         image = render(loaded, int(spp), seed)
         seconds = time.process_time() - start
         mitsuba.Bitmap(image).convert(mitsuba.Bitmap.PixelFormat.RGB, mitsuba.Struct.Type.Float32, False).write(output)
-        print(json.dumps([seconds, resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024]), flush=True)
+        print(json.dumps([seconds, peak_bytes()]), flush=True)
 
 
 if __name__ == "__main__":

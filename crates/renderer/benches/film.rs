@@ -37,7 +37,7 @@ fn main() {
                 let mut sum = PixelSum::default();
                 for &u in &uniforms {
                     let sample = pixel.sample(u);
-                    sum.add(Color::splat(sample.weight * sample.position[0]));
+                    black_box(sum.add(Color::splat(sample.weight * sample.position[0])));
                 }
                 sum.mean()
             });

@@ -7,7 +7,7 @@
 //! ```
 #![allow(missing_docs, reason = "a program")]
 
-use std::error::Error;
+use core::error::Error;
 use std::io::{Read, Write};
 
 use etendue_report::{Axis, Chart, Guide, Point, Series, Style};
