@@ -47,8 +47,7 @@ def answers(path):
     yield "Is memory the limit?", f"{span(lines, '%')} of the bytes that could come are asked for", "the-physical-limit"
     yield (
         "What does compiling differently gain?",
-        f"fat link-time optimisation {packagers['fat']}, with a profile {packagers['guided']}, for one's own processor "
-        f"{packagers['native']} times the speed",
+        ", ".join(f"`{way}` {gain} times the speed" for way, gain in packagers.items()),
         "for-packagers",
     )
 

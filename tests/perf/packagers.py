@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
 """What ways of compiling gain: link-time and profile-guided optimisation and instructions of one processor, on the reference scenes.
 
-usage: packagers.py --build [--profdata llvm-profdata]        (half an hour on two cores; into target/packagers)
+usage: packagers.py --build [WAY ...] [--profdata llvm-profdata]        (five minutes a way on two cores; into target/packagers)
        packagers.py [--rounds 5] [--document docs/performance.md]
+
+Without a WAY all are built; what has been built is measured.
 
 Times are processor times of one thread, less those of a picture of one pixel, in turn in every round; a ratio is the median of the
 rounds', the time of the release profile over that of the way. --profdata must be of the LLVM that `rustc -vV` names or a later one.
@@ -32,6 +34,11 @@ WAYS = {
 MEASURED = ["release", "fat", "guided", "native"]
 
 
+def built(folder):
+    """Those of the measured ways that have been built."""
+    return [way for way in MEASURED if os.path.exists(binary(folder, way))]
+
+
 def binary(folder, way):
     return os.path.join(folder, way)
 
@@ -45,7 +52,7 @@ def build(folder, way):
 
 
 def train(folder, profdata, options):
-    """Runs what is instrumented and merges what it wrote. The mesh of `surface` is small: profiles count, they do not time."""
+    """Renders every scene with what is instrumented, and merges what that wrote."""
     with tempfile.TemporaryDirectory() as pictures:
         for name in scenes.SCENES:
             scene = scenes.write(pictures, name, options)
@@ -55,21 +62,21 @@ def train(folder, profdata, options):
     subprocess.run(command, check=True)
 
 
-def measure(folder, options):
-    """Ratios by scene and way."""
+def measure(folder, ways, options):
+    """Ratios of the first way's time to that of the others, by scene and way."""
     ratios = {}
     with tempfile.TemporaryDirectory() as pictures:
         output = os.path.join(pictures, "picture.pfm")
         for name in scenes.SCENES:
             scene = scenes.write(pictures, name, options)
-            binaries = {way: binary(folder, way) for way in MEASURED}
+            binaries = {way: binary(folder, way) for way in ways}
             starts = {way: program.start(path, scene, output).seconds for way, path in binaries.items()}
             rounds = [
                 {way: program.render(path, scene, output, "--spp", 16).seconds - starts[way] for way, path in binaries.items()}
                 for _ in range(options.rounds)
             ]
             agree(name, binaries, scene, output)
-            ratios[name] = {way: statistics.median(times["release"] / times[way] for times in rounds) for way in MEASURED[1:]}
+            ratios[name] = {way: statistics.median(times[ways[0]] / times[way] for times in rounds) for way in ways[1:]}
     return ratios
 
 
@@ -87,7 +94,7 @@ def agree(name, binaries, scene, output):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
-    parser.add_argument("--build", action="store_true")
+    parser.add_argument("--build", nargs="*", choices=list(WAYS), help="all, or some, in this order")
     parser.add_argument("--profdata", default="llvm-profdata")
     parser.add_argument("--folder", default="target/packagers")
     parser.add_argument("--rounds", type=int, default=5)
@@ -95,18 +102,20 @@ def main():
     scenes.add_options(parser)
     options = parser.parse_args()
     folder = os.path.abspath(options.folder)
-    if options.build:
+    if options.build is not None:
         os.makedirs(folder, exist_ok=True)
-        for way in WAYS:
+        for way in options.build or WAYS:
             if way == "guided":
                 train(folder, options.profdata, options)
             build(folder, way)
         return
-    ratios = measure(folder, options)
-    means = {way: math.exp(statistics.mean(math.log(of[way]) for of in ratios.values())) for way in MEASURED[1:]}
-    rows = [[name, *(f"{of[way]:.3f}" for way in MEASURED[1:])] for name, of in {**ratios, "geometric mean": means}.items()]
-    sizes = [f"{os.path.getsize(binary(folder, way)) / 2**20:.1f}" for way in MEASURED]
-    lines = documents.table(["times as fast as the release profile", *MEASURED[1:]], [*rows, ["size, MiB (release: " + sizes[0] + ")", *sizes[1:]]])
+    first, *others = ways = built(folder)
+    ratios = measure(folder, ways, options)
+    means = {way: math.exp(statistics.mean(math.log(of[way]) for of in ratios.values())) for way in others}
+    rows = [[name, *(f"{of[way]:.3f}" for way in others)] for name, of in {**ratios, "geometric mean": means}.items()]
+    sizes = {way: f"{os.path.getsize(binary(folder, way)) / 2**20:.1f}" for way in ways}
+    rows.append([f"size, MiB ({first}: {sizes[first]})", *(sizes[way] for way in others)])
+    lines = documents.table([f"times as fast as {first}", *others], rows)
     documents.publish(options.document, "packagers", [documents.machine() + ".", "", *lines])
 
 
