@@ -56,7 +56,7 @@ def main():
     if len(sys.argv) != 2:
         raise SystemExit(__doc__)
     rows = [[question, answer, f"[{anchor.replace('-', ' ')}](#{anchor})"] for question, answer, anchor in answers(sys.argv[1])]
-    lines = ["| | | |", "| --- | --- | --- |", *("| " + " | ".join(row) + " |" for row in rows)]
+    lines = ["| question | answer | more |", "| --- | --- | --- |", *("| " + " | ".join(row) + " |" for row in rows)]
     documents.publish(sys.argv[1], "answers", lines)
 
 
