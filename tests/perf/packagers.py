@@ -53,6 +53,7 @@ def build(folder, way):
 
 def train(folder, profdata, options):
     """Renders every scene with what is instrumented, and merges what that wrote."""
+    shutil.rmtree(os.path.join(folder, "profile"), ignore_errors=True)  # of programs that ran during the build
     with tempfile.TemporaryDirectory() as pictures:
         for name in scenes.SCENES:
             scene = scenes.write(pictures, name, options)
