@@ -4,8 +4,9 @@
 usage: growth.py [--etendue target/release/etendue] [--only triangles,threads] [--document docs/performance.md] [--images docs/images]
 
 Times of samples are processor times of one thread, less those of a picture of one pixel, the least of `--rounds` runs; where these
-are most of it (large meshes), those while the program rendered. Time to the first pixel is the clock's, with all threads: reading the files,
-building the hierarchies, one sample. Memory is what the process has at most. Other work disturbs what the clock says. The plots are IMAGES/growth-NAME.svg, the tables go into the part `growth NAME` of the document.
+are most of it (large meshes), those while the program rendered. Time to the first pixel is the clock's, with all threads: reading
+the files, building the hierarchies, one sample. Memory is what the process has at most. Other work disturbs what the clock says.
+The plots are IMAGES/growth-NAME.svg, the tables go into the part `growth NAME` of the document.
 """
 import argparse
 import os
