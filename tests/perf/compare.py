@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Time and error of two programs, or of the program and Mitsuba 3, on the reference scenes, in turn, in one run.
 
-usage: compare.py --baseline OLD [--candidate NEW] [--peer] [--rounds 5] [--spp 16] [--size 256] [--document FILE]
+usage: compare.py --baseline OLD [--candidate NEW] [--peer] [--rounds 5] [--spp 64] [--size 256] [--document FILE]
 
 --candidate compares two binaries of étendue; --peer compares one with Mitsuba 3 (variant llvm_ad_rgb; needs the package, and
 DRJIT_LIBLLVM_PATH where its LLVM is not found). Every round renders every scene by every contestant with a seed of its own.
@@ -127,7 +127,7 @@ def main():
     parser.add_argument("--candidate")
     parser.add_argument("--peer", action="store_true")
     parser.add_argument("--rounds", type=int, default=5)
-    parser.add_argument("--spp", type=int, default=16)
+    parser.add_argument("--spp", type=int, default=64)
     parser.add_argument("--size", type=int, default=256)
     parser.add_argument("--reference-spp", type=int, default=1024)
     parser.add_argument("--cache", default="target/perf")
@@ -151,10 +151,15 @@ def main():
                 "étendue independent": Binary(options.baseline, scene, folder, options, "--sampler", "independent"),
                 "Mitsuba independent": mitsuba_worker.Mitsuba(scene, folder, options, "independent"),
                 "étendue sobol": Binary(options.baseline, scene, folder, options, "--sampler", "sobol"),
+                "étendue sobol, reuse": Binary(options.baseline, scene, folder, options, "--sampler", "sobol", "--reuse"),
                 "Mitsuba multijitter": mitsuba_worker.Mitsuba(scene, folder, options, "multijitter"),
             }
 
-        pairs = [("Mitsuba independent", "étendue independent"), ("Mitsuba multijitter", "étendue sobol")]
+        pairs = [
+            ("Mitsuba independent", "étendue independent"),
+            ("Mitsuba multijitter", "étendue sobol"),
+            ("Mitsuba multijitter", "étendue sobol, reuse"),
+        ]
         lines, memory = compare(options, pairs, contestants)
         print()
         what = f"{documents.machine()}; {options.size}², {options.spp} samples per pixel, {options.rounds} rounds."

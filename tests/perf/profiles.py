@@ -32,7 +32,7 @@ NOUNS = {
     "materials": r"crates/brdf/|scene/src/material|path/scatter",
     "textures": r"scene/src/texture",
     "random numbers": r"sampling/src/(independent|sobol|owen|sampler|dimension|pcg32)|math/src/hash",
-    "film": r"renderer/src/(film|tile|render|progressive)|scene/src/film",
+    "film": r"renderer/src/(film|tile|render|progressive|pilot)|scene/src/film",
     "camera": r"scene/src/camera",
     "paths": r"renderer/src/path|renderer/src/|scene/src/scene",
     "loading": r"scene/src/(load|mitsuba|xml|gltf|parallel)|png-|/image-|zune|fdeflate|roxmltree|flate2",
