@@ -17,6 +17,29 @@ pub(crate) fn map<T: Sync, U: Send>(items: &[T], f: impl Fn(&T) -> U + Sync + Se
     return items.iter().map(f).collect();
 }
 
+/// [`map`] for what takes a microsecond or more.
+pub(crate) fn map_slowly<T: Sync, U: Send>(
+    items: &[T],
+    f: impl Fn(&T) -> U + Sync + Send,
+) -> Vec<U> {
+    #[cfg(feature = "std")]
+    return items.par_iter().with_min_len(TASK >> 6).map(f).collect();
+    #[cfg(not(feature = "std"))]
+    return items.iter().map(f).collect();
+}
+
+/// Appends what `f` makes of each element, in order.
+pub(crate) fn extend<T: Sync, U: Send>(
+    to: &mut Vec<U>,
+    items: &[T],
+    f: impl Fn(&T) -> U + Sync + Send,
+) {
+    #[cfg(feature = "std")]
+    to.par_extend(items.par_iter().with_min_len(TASK).map(f));
+    #[cfg(not(feature = "std"))]
+    to.extend(items.iter().map(f));
+}
+
 /// The first element that `f` is true of.
 pub(crate) fn position<T: Sync>(
     items: &[T],

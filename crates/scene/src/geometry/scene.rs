@@ -4,12 +4,11 @@ use alloc::vec::Vec;
 use core::ops::Range;
 
 use super::bvh::simd::{Backend, Simd};
-use super::bvh::{Bvh, Found, Objects, PreparedRay, TriangleRef};
+use super::bvh::{Bvh, Found, Objects, PreparedRay, TriangleRef, Triangles};
 use super::moving::{Moving, Origin};
 use super::surface::LocalSurface;
 use super::{
     Aabb, GeometryBuilder, GroupId, Moment, Ray, Rays, Shape, ShapeId, SurfacePoint, Transform,
-    triangle,
 };
 
 /// Shapes, groups and instances, ready for rays.
@@ -92,20 +91,38 @@ pub(super) struct Level {
     degenerate_triangles: usize,
 }
 
+/// The triangles of some shapes, numbered through.
+struct LevelTriangles<'a> {
+    shapes: &'a [Shape],
+    /// Shapes with triangles, and the numbers of their first ones.
+    starts: Vec<(u32, u32)>,
+    count: u32,
+}
+
+impl Triangles for LevelTriangles<'_> {
+    fn count(&self) -> u32 {
+        self.count
+    }
+
+    fn get(&self, number: u32) -> Option<TriangleRef> {
+        let after = self.starts.partition_point(|&(_, start)| start <= number);
+        let (shape, start) = *self.starts.get(after.checked_sub(1)?)?;
+        let primitive = number - start;
+        let facet = self.shapes[shape as usize].triangle(primitive)?;
+        facet.has_area().then_some(TriangleRef { corners: facet.corners, shape, primitive })
+    }
+}
+
 impl Level {
     /// `instances`: the boxes of the instances.
     fn build(shapes: &[Shape], ids: impl Iterator<Item = u32>, instances: &[Aabb]) -> Self {
-        let (mut triangles, mut degenerate_triangles) = (Vec::new(), 0);
+        let mut triangles = LevelTriangles { shapes, starts: Vec::new(), count: 0 };
         let (mut objects, mut boxes) = (Vec::new(), Vec::new());
         for id in ids {
             let shape = &shapes[id as usize];
-            for primitive in 0..shape.triangle_count() {
-                let Some(corners) = shape.triangle(primitive) else { continue };
-                if triangle::normal(&corners).is_some() {
-                    triangles.push(TriangleRef { corners, shape: id, primitive });
-                } else {
-                    degenerate_triangles += 1;
-                }
+            if shape.triangle_count() > 0 {
+                triangles.starts.push((id, triangles.count));
+                triangles.count += shape.triangle_count();
             }
             for number in 0..shape.object_count() {
                 objects.push(Object { shape: id, number });
@@ -114,7 +131,9 @@ impl Level {
         }
         boxes.extend_from_slice(instances);
         let bvh = Bvh::build(&triangles, &boxes);
-        Self { bvh, objects, triangles: triangles.len(), degenerate_triangles }
+        let degenerate_triangles = bvh.left_out();
+        let triangles = triangles.count as usize - degenerate_triangles;
+        Self { bvh, objects, triangles, degenerate_triangles }
     }
 }
 

@@ -218,10 +218,10 @@ impl Shape {
     }
 
     /// One of these triangles.
-    pub(crate) fn triangle(&self, index: u32) -> Option<triangle::Corners> {
+    pub(crate) fn triangle(&self, index: u32) -> Option<&triangle::Facet> {
         match self {
-            Self::Mesh(mesh) => Some(mesh.corners(index)),
-            Self::Rectangle(s) => Some(s.half(index).corners),
+            Self::Mesh(mesh) => mesh.facets().get(index as usize),
+            Self::Rectangle(s) => Some(s.half(index)),
             _ => None,
         }
     }

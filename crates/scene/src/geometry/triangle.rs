@@ -62,6 +62,12 @@ impl Facet {
         }
     }
 
+    /// Whether a ray can hit it: its corners are not on a line.
+    pub(crate) fn has_area(&self) -> bool {
+        // What underflows in `f32` need not be 0.
+        self.area > 0.0 || normal(&self.corners).is_some()
+    }
+
     /// The point with barycentric coordinates `(1 − b₁ − b₂, b₁, b₂)` and a bound on its error.
     ///
     /// ```text

@@ -1,6 +1,6 @@
 //! From items to a binary tree, top down.
 
-use alloc::boxed::Box;
+use alloc::vec::Vec;
 
 use super::LANES;
 use super::split::{self, Cut};
@@ -14,113 +14,111 @@ pub(super) const MAX_DEPTH: usize = 48;
 
 /// Ranges with fewer items are built on the thread that finds them.
 #[cfg(feature = "std")]
-const PARALLEL_FROM: usize = 2048;
+const PARALLEL_FROM: usize = 8192;
 
 /// What is sorted while building: a box and the number of what is in it. Triangles come first in
-/// the numbering, objects after them.
+/// the numbering, objects after them. A triangle may be in several items, each with a part of it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Item {
     pub(super) bounds: Aabb,
     pub(super) number: u32,
 }
 
-/// A binary tree, and what it costs to make a wide one of it.
-pub(super) struct Tree<'a> {
+/// A binary tree in one array.
+pub(super) struct Tree {
+    pub(super) nodes: Vec<TreeNode>,
+}
+
+/// A node of a [`Tree`].
+#[derive(Clone, Copy, Debug)]
+pub(super) struct TreeNode {
     pub(super) bounds: Aabb,
-    pub(super) form: Form<'a>,
-    /// Least areas of all wide nodes in this tree if it becomes 1, 2, … children of a wide node.
-    costs: [f32; LANES],
+    /// The node of which it is a child; itself for the root.
+    pub(super) parent: u32,
+    pub(super) form: Form,
 }
 
-/// What a tree is.
-pub(super) enum Form<'a> {
-    /// Up to eight triangles or one object.
-    Leaf(&'a [Item]),
-    /// Two trees.
-    Inner(Box<[Tree<'a>; 2]>),
+/// What a node is.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Form {
+    /// Up to eight triangles or one object: where in the items, and how many.
+    Leaf { first: u32, count: u32 },
+    /// Two nodes.
+    Inner([u32; 2]),
 }
 
-impl<'a> Tree<'a> {
-    /// Builds the tree over at least one item; `triangles` is the number of the first object.
+impl Tree {
+    pub(super) const ROOT: u32 = 0;
+
+    /// Builds the tree over at least one item; `first_object` is the number of the first object.
     ///
     /// The halves of large ranges are built in parallel with the feature `std`; the result does not
     /// depend on the number of threads.
-    pub(super) fn new(items: &'a mut [Item], triangles: u32) -> Self {
-        Self::below(items, triangles, 0)
+    pub(super) fn build(items: &mut [Item], first_object: u32) -> Self {
+        let mut nodes = Vec::new();
+        below(items, 0, first_object, 0, &mut nodes);
+        Self { nodes }
     }
 
-    fn below(items: &'a mut [Item], triangles: u32, depth: usize) -> Self {
-        let bounds = items.iter().fold(Aabb::EMPTY, |b, item| b.union(item.bounds));
-        let is_leaf = items.len() == 1
-            || items.len() <= LANES && items.iter().all(|item| item.number < triangles);
-        if is_leaf {
-            return Self { bounds, form: Form::Leaf(items), costs: [0.0; LANES] };
-        }
-        // Free cuts only guarantee that a part is smaller than the whole.
-        let levels = MAX_DEPTH.saturating_sub(depth + 1);
-        let cut = if items.len() as u64 <= 1 << levels { Cut::SurfaceArea } else { Cut::Halves };
-        let middle = split::cut(items, cut, triangles);
-        #[cfg(feature = "std")]
-        let parallel = items.len() >= PARALLEL_FROM;
-        let (left, right) = items.split_at_mut(middle);
-        let below = |items: &'a mut [Item]| Self::below(items, triangles, depth + 1);
-        #[cfg(feature = "std")]
-        if parallel {
-            let trees = rayon::join(move || below(left), move || below(right));
-            return Self::of(bounds, Box::new(trees.into()));
-        }
-        let trees = [below(left), below(right)];
-        Self::of(bounds, Box::new(trees))
-    }
-
-    /// The tree over two, with the costs
-    ///
-    /// ```text
-    /// D(n) = min over 0 < k < n of C_left(k) + C_right(n − k)
-    /// C(1) = area + D(8),   C(n) = min(C(n − 1), D(n))
-    /// ```
-    ///
-    /// # Source
-    /// Ylitie, Karras, Laine, "Efficient Incoherent Ray Traversal on GPUs Through Compressed Wide
-    /// BVHs", HPG 2017, section 3.2, with leaves that are given: their cost is the same for all.
-    fn of(bounds: Aabb, trees: Box<[Self; 2]>) -> Self {
-        let mut costs = [0.0; LANES];
-        costs[0] = bounds.half_area() + shares(&trees, LANES).1;
-        for n in 2..=LANES {
-            costs[n - 1] = costs[n - 2].min(shares(&trees, n).1);
-        }
-        Self { bounds, form: Form::Inner(trees), costs }
-    }
-
-    /// Calls `f` with the trees that become the children of the wide node of this tree.
-    pub(super) fn for_each_child(&self, f: &mut impl FnMut(&Self)) {
-        match &self.form {
-            Form::Leaf(_) => f(self),
-            Form::Inner(trees) => open(trees, LANES, f),
-        }
-    }
-
-    /// Calls `f` with up to `n` trees that this one falls apart into at least cost.
-    fn split(&self, n: usize, f: &mut impl FnMut(&Self)) {
-        // As few as give the least cost.
-        let n = (1..n).find(|&fewer| self.costs[fewer - 1] == self.costs[n - 1]).unwrap_or(n);
-        match &self.form {
-            Form::Inner(trees) if n > 1 => open(trees, n, f),
-            _ => f(self),
+    /// What a leaf holds, of something there is for each item; nothing of an inner node.
+    pub(super) fn held<'a, T>(&self, node: u32, items: &'a [T]) -> &'a [T] {
+        match self.nodes[node as usize].form {
+            Form::Leaf { first, count } => &items[first as usize..(first + count) as usize],
+            Form::Inner(_) => &[],
         }
     }
 }
 
-fn open<'a>(trees: &[Tree<'a>; 2], n: usize, f: &mut impl FnMut(&Tree<'a>)) {
-    let [left, right] = trees;
-    let (k, _) = shares(trees, n);
-    left.split(k, f);
-    right.split(n - k, f);
-}
-
-/// How many of `n` ≥ 2 places the left one of two trees gets, and the cost D(n).
-fn shares([left, right]: &[Tree<'_>; 2], n: usize) -> (usize, f32) {
-    (1..n)
-        .map(|k| (k, left.costs[k - 1] + right.costs[n - k - 1]))
-        .fold((1, f32::INFINITY), |best, share| if share.1 < best.1 { share } else { best })
+/// Appends the tree over a range of items, of which the first has the index `first`; returns where its root is. Places are
+/// counted from the start of `nodes`.
+fn below(
+    items: &mut [Item],
+    first: u32,
+    first_object: u32,
+    depth: usize,
+    nodes: &mut Vec<TreeNode>,
+) -> u32 {
+    let root = nodes.len() as u32;
+    let count = items.len();
+    let bounds = items.iter().fold(Aabb::EMPTY, |b, item| b.union(item.bounds));
+    let form = Form::Leaf { first, count: count as u32 };
+    nodes.push(TreeNode { bounds, parent: root, form });
+    if count == 1 || count <= LANES && items.iter().all(|item| item.number < first_object) {
+        return root;
+    }
+    // Free cuts only guarantee that a part is smaller than the whole.
+    let levels = MAX_DEPTH.saturating_sub(depth + 1);
+    let cut = if count as u64 <= 1 << levels { Cut::SurfaceArea } else { Cut::Halves };
+    let middle = split::cut(items, cut, first_object);
+    let (left, right) = items.split_at_mut(middle);
+    let parts = [(left, first), (right, first + middle as u32)];
+    let build = |(items, first), nodes: &mut Vec<TreeNode>| {
+        below(items, first, first_object, depth + 1, nodes)
+    };
+    #[cfg(feature = "std")]
+    let children = if count >= PARALLEL_FROM {
+        let [left, right] = parts;
+        let others = || {
+            let mut nodes = Vec::new();
+            build(right, &mut nodes);
+            nodes
+        };
+        let (left, mut others) = rayon::join(|| build(left, nodes), others);
+        let right = nodes.len() as u32;
+        for node in &mut others {
+            node.parent += right;
+            if let Form::Inner(children) = &mut node.form {
+                children.iter_mut().for_each(|child| *child += right);
+            }
+        }
+        nodes.append(&mut others);
+        [left, right]
+    } else {
+        parts.map(|part| build(part, nodes))
+    };
+    #[cfg(not(feature = "std"))]
+    let children = parts.map(|part| build(part, nodes));
+    nodes[root as usize].form = Form::Inner(children);
+    children.iter().for_each(|&child| nodes[child as usize].parent = root);
+    root
 }

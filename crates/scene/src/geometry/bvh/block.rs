@@ -16,7 +16,7 @@ pub(super) struct TriangleBlock {
 
 impl TriangleBlock {
     /// Up to eight triangles; more are left out.
-    pub(super) fn new<'a>(triangles: impl Iterator<Item = &'a TriangleRef>) -> Self {
+    pub(super) fn new(triangles: impl Iterator<Item = TriangleRef>) -> Self {
         let mut block = Self {
             corners: [[[f32::NAN; LANES]; 3]; 3],
             shapes: [u32::MAX; LANES],

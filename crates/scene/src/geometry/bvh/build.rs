@@ -1,4 +1,4 @@
-//! From items to wide nodes.
+//! From triangles and objects to wide nodes.
 
 use alloc::vec;
 use alloc::vec::Vec;
@@ -6,9 +6,13 @@ use alloc::vec::Vec;
 use super::Bvh;
 use super::binary::{Form, Item, Tree};
 use super::block::TriangleBlock;
+use super::collapse::Collapse;
 use super::node::{Child, Content, Node};
+use super::presplit::presplit;
+use super::simd::pages;
 use crate::geometry::Aabb;
 use crate::geometry::triangle::Corners;
+use crate::parallel;
 
 /// A triangle to be held by a hierarchy.
 #[derive(Clone, Copy, Debug)]
@@ -18,51 +22,105 @@ pub(in crate::geometry) struct TriangleRef {
     pub(in crate::geometry) primitive: u32,
 }
 
+/// The triangles that a hierarchy is built over, which are asked for by number: a list of them would need as much memory as
+/// the hierarchy.
+pub(in crate::geometry) trait Triangles: Sync {
+    /// How many numbers there are.
+    fn count(&self) -> u32;
+    /// The triangle of a number; `None` for one that no ray can hit.
+    fn get(&self, number: u32) -> Option<TriangleRef>;
+}
+
 impl Bvh {
     /// Builds the hierarchy over triangles and the boxes of objects.
     ///
     /// Items with an empty or NaN box are left out. The result does not depend on the number of
     /// threads.
-    pub(in crate::geometry) fn build(triangles: &[TriangleRef], objects: &[Aabb]) -> Self {
-        let boxes =
-            triangles.iter().map(|t| Aabb::from_points(t.corners)).chain(objects.iter().copied());
-        let mut items: Vec<Item> = (0..)
-            .zip(boxes)
-            .map(|(number, bounds)| Item { bounds, number })
-            .filter(|item| !item.bounds.is_empty())
+    pub(in crate::geometry) fn build(triangles: &impl Triangles, objects: &[Aabb]) -> Self {
+        let first_object = triangles.count();
+        let bounds = |number: u32| match objects.get(number.wrapping_sub(first_object) as usize) {
+            Some(bounds) => *bounds,
+            None => triangles.get(number).map_or(Aabb::EMPTY, |t| Aabb::from_points(t.corners)),
+        };
+        let mut items: Vec<Item> = (0..first_object + objects.len() as u32)
+            .map(|number| Item { bounds: Aabb::EMPTY, number })
             .collect();
-        let mut bvh = Self { nodes: vec![Node::EMPTY], blocks: Vec::new(), bounds: Aabb::EMPTY };
-        if !items.is_empty() {
-            let tree = Tree::new(&mut items, triangles.len() as u32);
-            bvh.bounds = tree.bounds;
-            bvh.fill(0, &tree, triangles);
+        parallel::update(&mut items, |item| Item { bounds: bounds(item.number), ..item });
+        let mut left_out = 0;
+        items.retain(|item| {
+            let empty = item.bounds.is_empty();
+            left_out += usize::from(empty && item.number < first_object);
+            !empty
+        });
+        if items.is_empty() {
+            let nodes = vec![Node::EMPTY];
+            return Self { nodes, blocks: Vec::new(), bounds: Aabb::EMPTY, left_out };
         }
-        bvh
+        presplit(&mut items, triangles);
+        let mut tree = Tree::build(&mut items, first_object);
+        tree.reinsert();
+        // Of what is not needed any more nothing is kept: blocks take as much memory as all before them.
+        let numbers: Vec<u32> = items.iter().map(|item| item.number).collect();
+        drop(items);
+        let mut wide = Wide {
+            collapse: Collapse::new(&tree),
+            tree: &tree,
+            numbers: &numbers,
+            first_object,
+            nodes: vec![Node::EMPTY],
+            leaves: Vec::new(),
+        };
+        wide.fill(0, Tree::ROOT);
+        let Wide { nodes: filled, leaves, collapse, .. } = wide;
+        drop(collapse);
+        let mut nodes = pages::with_capacity(filled.len());
+        nodes.extend(filled);
+        let mut blocks = pages::with_capacity(leaves.len());
+        parallel::extend(&mut blocks, &leaves, |&leaf| {
+            let held = tree.held(leaf, &numbers).iter();
+            TriangleBlock::new(held.filter_map(|&number| triangles.get(number)))
+        });
+        Self { nodes, blocks, bounds: tree.nodes[Tree::ROOT as usize].bounds, left_out }
     }
+}
 
+/// A hierarchy that is being filled.
+struct Wide<'a> {
+    tree: &'a Tree,
+    collapse: Collapse,
+    /// Of all items, in the order of the tree's leaves.
+    numbers: &'a [u32],
+    first_object: u32,
+    nodes: Vec<Node>,
+    /// The leaf of the tree that each block holds.
+    leaves: Vec<u32>,
+}
+
+impl Wide<'_> {
     /// Fills a node with what is in a tree. Nodes and blocks are appended depth first, so that what
     /// a ray visits lies close together.
-    fn fill(&mut self, node: usize, tree: &Tree<'_>, triangles: &[TriangleRef]) {
-        let mut lane = 0;
-        tree.for_each_child(&mut |tree| {
-            let content = match tree.form {
+    fn fill(&mut self, node: usize, root: u32) {
+        let children = self.collapse.children(self.tree, root);
+        for (lane, &child) in children.as_slice().iter().enumerate() {
+            let content = match self.tree.nodes[child as usize].form {
                 Form::Inner(_) => {
-                    let child = self.nodes.len();
+                    let index = self.nodes.len();
                     self.nodes.push(Node::EMPTY);
-                    self.fill(child, tree, triangles);
-                    Content::Node(child as u32)
+                    self.fill(index, child);
+                    Content::Node(index as u32)
                 }
-                Form::Leaf(&[Item { number, .. }]) if number as usize >= triangles.len() => {
-                    Content::Object(number - triangles.len() as u32)
-                }
-                Form::Leaf(items) => {
-                    let held = items.iter().map(|item| &triangles[item.number as usize]);
-                    self.blocks.push(TriangleBlock::new(held));
-                    Content::Block(self.blocks.len() as u32 - 1)
-                }
+                Form::Leaf { .. } => match self.tree.held(child, self.numbers) {
+                    &[number] if number >= self.first_object => {
+                        Content::Object(number - self.first_object)
+                    }
+                    _ => {
+                        self.leaves.push(child);
+                        Content::Block(self.leaves.len() as u32 - 1)
+                    }
+                },
             };
-            self.nodes[node].set(lane, &tree.bounds, Child::new(content));
-            lane += 1;
-        });
+            let bounds = &self.tree.nodes[child as usize].bounds;
+            self.nodes[node].set(lane, bounds, Child::new(content));
+        }
     }
 }

@@ -62,11 +62,15 @@ fn push_all_but_nearest(
     node: &Node,
     mask: u32,
     distances: &[f32; LANES],
+    prefetch: impl Fn(Child),
 ) -> Option<Child> {
     let mut entered = lanes(mask);
     let first = entered.next()?;
     let Some(second) = entered.next() else { return Some(node.children[first]) };
-    let key = |lane: usize| entry(distances[lane], node.children[lane]);
+    let key = |lane: usize| {
+        prefetch(node.children[lane]);
+        entry(distances[lane], node.children[lane])
+    };
     let (a, b) = (key(first), key(second));
     let (mut near, far) = (a.min(b), a.max(b));
     let bottom = stack.len();
@@ -104,6 +108,16 @@ pub(super) fn lanes(mut mask: u32) -> impl Iterator<Item = usize> {
 }
 
 impl Bvh {
+    /// Asks for what a child is.
+    #[inline(always)]
+    fn prefetch<S: Simd>(&self, simd: S, child: Child) {
+        match child.content() {
+            Content::Node(index) => simd.prefetch(&self.nodes, index as usize),
+            Content::Block(index) => simd.prefetch(&self.blocks, index as usize),
+            Content::Object(_) => {}
+        }
+    }
+
     /// Replaces `found` by the closest hit with a smaller `t`, if there is one.
     #[inline(always)]
     pub(in crate::geometry) fn closest<S: Simd, O: Objects>(
@@ -121,7 +135,9 @@ impl Bvh {
                 Content::Node(index) => {
                     let node = &self.nodes[index as usize];
                     let (mask, distances) = boxes::entered(simd, node, &ray.boxes, found.t);
-                    next = push_all_but_nearest(&mut stack, node, mask, &distances);
+                    next = push_all_but_nearest(&mut stack, node, mask, &distances, |child| {
+                        self.prefetch(simd, child);
+                    });
                     if next.is_some() {
                         continue;
                     }
@@ -163,6 +179,10 @@ impl Bvh {
                 }
                 let lane = mask.trailing_zeros() as usize & (LANES - 1);
                 mask &= mask.wrapping_sub(1);
+                if mask != 0 {
+                    let sibling = mask.trailing_zeros() as usize & (LANES - 1);
+                    self.prefetch(simd, node.children[sibling]);
+                }
                 let hit = match node.children[lane].content() {
                     Content::Node(child) => {
                         if mask != 0 {

@@ -1,5 +1,9 @@
 //! No ray gets into or out of a closed surface.
 
+use alloc::vec::Vec;
+
+use etendue_math::glam::Vec3;
+
 use super::{Random, sphere_mesh};
 use crate::geometry::{GeometryBuilder, Ray, Shape, Transform, TriangleMesh};
 
@@ -71,5 +75,50 @@ fn rays_from_far_away_hit_what_they_are_aimed_at() {
         // The resolution of the origin is 1/16: aim at a point well inside.
         let target = random.point() * 0.2;
         assert!(geometry.intersect(&Ray::new(origin, target - origin)).is_some());
+    }
+}
+
+/// Two cones with a common rim, about the diagonal: each triangle goes from the middle to one end, and its box is large
+/// and all but empty.
+fn spindle(around: u32) -> TriangleMesh {
+    use etendue_math::Real;
+    let axis = Vec3::ONE.normalize();
+    let side = axis.cross(Vec3::X).normalize();
+    let up = axis.cross(side);
+    let rim = (0..around).map(|i| {
+        let (sin, cos) = Real::sin_cos(core::f32::consts::TAU * i as f32 / around as f32);
+        side * cos + up * sin
+    });
+    let positions: Vec<Vec3> = [axis * 100.0, axis * -100.0].into_iter().chain(rim).collect();
+    let triangles = (0..around).flat_map(|i| {
+        let (a, b) = (2 + i, 2 + (i + 1) % around);
+        [[0, a, b], [1, b, a]]
+    });
+    TriangleMesh::new(positions, Vec::new(), Vec::new(), triangles.collect()).expect("a mesh")
+}
+
+#[test]
+fn a_mesh_of_triangles_in_several_parts_is_closed() {
+    let mut random = Random(14);
+    let mesh = spindle(300);
+    let mut builder = GeometryBuilder::new();
+    builder.add_shape(Shape::Mesh(mesh.clone()));
+    let geometry = builder.build();
+    for i in 0..mesh.triangles().len() as u32 {
+        let [tip, a, b] = mesh.corners(i);
+        for k in 0..60 {
+            let [s, t] = random.pair();
+            // On the axis, in the half of the triangle or in the other one.
+            let origin = tip * (1.8 * s - 0.9);
+            let target = match k % 4 {
+                0 => a,
+                1 => tip + (a - tip) * t,
+                2 => a + (b - a) * t,
+                _ => tip + (a + (b - a) * s - tip) * t,
+            };
+            let ray = Ray::new(origin, target - origin);
+            assert!(geometry.intersect(&ray).is_some(), "{ray:?} leaves through triangle {i}");
+            assert!(geometry.occluded(&ray), "{ray:?} leaves through triangle {i}");
+        }
     }
 }

@@ -7,6 +7,7 @@ use core::arch::x86_64::{
     _mm256_set1_ps, _mm256_storeu_ps, _mm256_sub_ps,
 };
 
+use super::prefetch::prefetch;
 use super::{Kernel, LANES, Simd};
 
 /// Proof that the processor has AVX2 and BMI1/2: only [`detect`](Self::detect) makes one.
@@ -120,5 +121,9 @@ impl Simd for Avx2 {
     fn bits(self, a: __m256) -> u32 {
         // SAFETY: `self` proves that the processor has AVX2.
         unsafe { _mm256_movemask_ps(a) as u32 }
+    }
+    #[inline(always)]
+    fn prefetch<T>(self, items: &[T], index: usize) {
+        prefetch(items, index);
     }
 }

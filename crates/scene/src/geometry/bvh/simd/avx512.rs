@@ -113,4 +113,8 @@ impl Simd for Avx512 {
     fn bits(self, a: __mmask8) -> u32 {
         u32::from(a)
     }
+    #[inline(always)]
+    fn prefetch<T>(self, items: &[T], index: usize) {
+        self.0.prefetch(items, index);
+    }
 }

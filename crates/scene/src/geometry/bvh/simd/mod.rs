@@ -8,6 +8,7 @@
 mod avx2;
 #[cfg(target_arch = "x86_64")]
 mod avx512;
+pub(super) mod pages;
 mod portable;
 #[cfg(target_arch = "x86_64")]
 mod sse2;
@@ -16,6 +17,9 @@ mod stack;
 use super::LANES;
 
 pub(super) use stack::{Memory, Stack};
+
+#[cfg(target_arch = "x86_64")]
+mod prefetch;
 
 /// Operations on eight floats. A value of an implementing type is the proof that the processor has
 /// the instructions.
@@ -48,6 +52,8 @@ pub(in crate::geometry) trait Simd: Copy {
     fn or(self, a: Self::M, b: Self::M) -> Self::M;
     /// The lanes as bits, the first the lowest.
     fn bits(self, a: Self::M) -> u32;
+    /// Asks for an item to be brought to the nearest cache; nothing where there is none of that index.
+    fn prefetch<T>(self, items: &[T], index: usize);
 }
 
 /// A computation written over [`Simd`]. Its `run` must be `#[inline(always)]`, and so must

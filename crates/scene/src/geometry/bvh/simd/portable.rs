@@ -82,4 +82,6 @@ impl Simd for Portable {
     fn bits(self, a: u32) -> u32 {
         a
     }
+    #[inline(always)]
+    fn prefetch<T>(self, _: &[T], _: usize) {}
 }

@@ -7,6 +7,7 @@ use core::arch::x86_64::{
     _mm_sub_ps,
 };
 
+use super::prefetch::prefetch;
 use super::{Kernel, LANES, Simd};
 
 /// The baseline of x86-64.
@@ -102,5 +103,9 @@ impl Simd for Sse2 {
         // SAFETY: as in `both`.
         let [low, high] = unsafe { [_mm_movemask_ps(a[0]), _mm_movemask_ps(a[1])] };
         (low | high << 4) as u32
+    }
+    #[inline(always)]
+    fn prefetch<T>(self, items: &[T], index: usize) {
+        prefetch(items, index);
     }
 }
