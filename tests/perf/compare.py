@@ -151,7 +151,7 @@ def main():
                 "étendue independent": Binary(options.baseline, scene, folder, options, "--sampler", "independent"),
                 "Mitsuba independent": mitsuba_worker.Mitsuba(scene, folder, options, "independent"),
                 "étendue sobol": Binary(options.baseline, scene, folder, options, "--sampler", "sobol"),
-                "étendue sobol, reuse": Binary(options.baseline, scene, folder, options, "--sampler", "sobol", "--reuse"),
+                "étendue sobol, reuse": Binary(options.baseline, scene, folder, options, "--reuse"),
                 "Mitsuba multijitter": mitsuba_worker.Mitsuba(scene, folder, options, "multijitter"),
             }
 

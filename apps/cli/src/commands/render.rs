@@ -24,6 +24,7 @@ use task::Task;
 
 /// Renders a scene to a picture.
 #[derive(Debug, clap::Args)]
+#[allow(clippy::struct_excessive_bools, reason = "flags of a command line")]
 pub(crate) struct Arguments {
     #[command(flatten)]
     scene: SceneArguments,
@@ -45,7 +46,8 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "NAME")]
     allocation: Option<Allocation>,
     /// Let the paths of neighbouring pixels share what they find, and put samples where a pilot finds the error: most of the error
-    /// of indirect diffuse light is gone, neighbours have what is left in common, and there is no estimate of it.
+    /// of indirect diffuse light is gone, neighbours have what is left in common, and there is no estimate of it. With Sobol'
+    /// points unless --sampler says otherwise.
     #[arg(long, conflicts_with_all = ["error", "time", "allocation"])]
     reuse: bool,
     /// Further layers of an EXR picture, separated by commas.
@@ -122,9 +124,11 @@ impl Arguments {
             crop: self.crop,
             samples_per_pixel: self.spp,
             max_depth: self.max_depth,
-            sampler: self.sampler.map(|sampler| match sampler {
-                Sampler::Independent => SamplerKind::Independent,
-                Sampler::Sobol => SamplerKind::Sobol,
+            sampler: self.sampler.or(self.reuse.then_some(Sampler::Sobol)).map(|sampler| {
+                match sampler {
+                    Sampler::Independent => SamplerKind::Independent,
+                    Sampler::Sobol => SamplerKind::Sobol,
+                }
             }),
             seed: self.seed,
             ..self.scene.load_options()

@@ -63,10 +63,10 @@ fn reuse(renderer: &Renderer<'_>) -> Rendering {
 
 #[test]
 fn every_pixel_has_the_mean_of_paths_that_do_not_share() {
+    const PICTURES: u64 = 600;
     let mut scene = corner(SIZE);
     // Roulette at every vertex where it may be.
     scene.path.roulette_depth = 1;
-    const PICTURES: u64 = 600;
     let plain = Sums::of(PICTURES, |seed| {
         let go_on = AtomicBool::new(false);
         renderer(&scene, with_seed(seed, 32)).render(&|_| (), &go_on).image

@@ -88,13 +88,21 @@ fn plain(
         Method::Reuse => renderer.render_with_reuse(&report, interrupt.flag()),
         _ => renderer.render(&report, interrupt.flag()),
     };
-    let finished = rendering.progress.finished == rendering.progress.total;
+    let etendue_renderer::Progress { finished, total } = rendering.progress;
+    let whole = if finished == total {
+        Whole::Yes
+    } else if method == Method::Reuse && renderer.reuses_paths() && 2 * finished >= total {
+        // The pilot has been everywhere.
+        Whole::WithFewerSamples
+    } else {
+        Whole::BlackInParts
+    };
     Drawing {
         image: rendering.image,
         layers: Vec::new(),
         statistics: rendering.statistics,
         configuration: renderer.configuration(),
-        whole: if finished { Whole::Yes } else { Whole::BlackInParts },
+        whole,
         processor_seconds: None,
         accuracy: None,
     }

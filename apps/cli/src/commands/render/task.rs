@@ -29,7 +29,7 @@ pub(super) struct Task {
 }
 
 /// How samples are drawn.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Method {
     /// The scene's number of samples, pixel by pixel.
     Plain,
