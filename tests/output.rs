@@ -172,6 +172,9 @@ fn the_line_of_json_has_the_documented_keys() {
     assert!(json.get("peak_rss").is_some(), "{json}");
     #[cfg(target_os = "linux")]
     assert!(figure("peak_rss") > f64::from(1 << 20), "{json}");
+    #[cfg(target_os = "linux")]
+    assert!(figure("cpu_seconds") > 0.0, "{json}");
+    assert_eq!(figure("load_seconds"), figure("build_seconds"));
 }
 
 #[test]

@@ -116,6 +116,21 @@ fn adaptive_and_uniform_samples_are_named() {
 
 type ExrImage = Image<Layer<AnyChannels<FlatSamples>>>;
 
+#[test]
+fn paths_share_without_a_trace_of_threads() {
+    let folder = folder();
+    let shared = ["--reuse", "--spp", "32", "--sampler", "sobol"];
+    for (output, threads) in [("one.pfm", "1"), ("three.pfm", "3")] {
+        let json = render(&folder, output, &[&shared[..], &["--threads", threads]].concat()).json();
+        assert!((16.0..=32.0).contains(&number(&json, "/samples_per_pixel")), "{json}");
+        assert!(json["error"].is_null() && json["complete"] == true, "{json}");
+    }
+    let bits = |name| std::fs::read(folder.path(name)).expect("a picture");
+    assert_eq!(bits("one.pfm"), bits("three.pfm"));
+    render(&folder, "plain.pfm", &["--spp", "32", "--sampler", "sobol"]);
+    assert_ne!(bits("one.pfm"), bits("plain.pfm"));
+}
+
 fn read_exr(path: &Path) -> ExrImage {
     let channels = read().no_deep_data().largest_resolution_level().all_channels();
     channels.first_valid_layer().all_attributes().from_file(path).expect("an EXR file")
@@ -241,6 +256,8 @@ fn what_cannot_be_done_is_refused_with_a_reason() {
         (&["-o", "a.exr", "--aov", "albedo,beauty"], "beauty"),
         (&["-o", "a.exr", "--error", "1%", "--spp", "1"], "ask for --spp 2 or more"),
         (&["-o", "a.exr", "--aov", "variance", "--spp", "1"], "ask for --spp 2 or more"),
+        (&["-o", "a.exr", "--reuse", "--aov", "variance"], "--reuse leaves nothing for the layers"),
+        (&["-o", "a.exr", "--reuse", "--time", "1s"], "cannot be used with '--time"),
         (&["-o", "a.png", "--aov", "albedo"], "a.png: only EXR pictures have layers"),
     ] {
         // A value that begins with a minus has to be joined to its name.

@@ -50,7 +50,7 @@
 //! | [`FilterSampler`] | where in a pixel's neighbourhood a sample lies |
 //! | [`LightSampler`] | which light is sampled for a point: a light tree |
 //! | [`Strategy`] | how light is found: both ways, or one of them |
-//! | [`PilotedRendering`] | how many samples a pixel gets after a pilot |
+//! | [`Renderer::render_with_reuse`] | what neighbouring paths lend each other, how many samples a pixel is worth |
 //! | [`progressive`] | how many samples a pixel gets, when a picture is accurate enough |
 //! | [`Features`] | what pixels show, for compositing and denoising |
 //! | [`image_metrics`] | how far two pictures are apart |
@@ -79,7 +79,6 @@ pub use configuration::Configuration;
 pub use features::Features;
 pub use film::{FilmSample, FilterSampler, Image, PixelFilter, PixelSum};
 pub use light_sampler::{LightChoice, LightSampler, Receiver, Sides};
-pub use pilot::PilotedRendering;
 pub use render::{Progress, Renderer, Rendering};
 pub use renderer_error::RendererError;
 pub use settings::{Airlight, RenderSettings, Strategy};

@@ -12,7 +12,7 @@ use etendue_scene::{Color, Scene};
 use crate::configuration::{Configuration, Configured};
 use crate::film::{FilterSampler, Image, PixelFilter, PixelSum};
 use crate::light_sampler::{LightSampler, PointLights};
-use crate::path::{Carried, PathTracer, Prepared, SharedPath, Transport};
+use crate::path::{Carried, PathTracer, Prepared, Transport};
 use crate::renderer_error::RendererError;
 use crate::settings::{Airlight, RenderSettings};
 use crate::statistics::{RayCounts, SampleAddress, Statistics};
@@ -230,27 +230,6 @@ impl<'a> Renderer<'a> {
         let time = self.time(points);
         let (ray, weight) = self.camera_ray(filter, time, points);
         T::radiance(&tracer.at(time), ray, points, rays).scale(weight)
-    }
-
-    /// A path that others of a group may have parts of, and the weight of what it finds.
-    #[inline(always)]
-    pub(crate) fn path_to_share<S: Sampler, T: Transport, R: Rays>(
-        &self,
-        tracer: &PathTracer<'_, '_, R, T::Channels>,
-        filter: &PixelFilter<'_>,
-        points: &S,
-        rays: &mut RayCounts,
-    ) -> (SharedPath, f32) {
-        let time = self.time(points);
-        let (ray, weight) = self.camera_ray(filter, time, points);
-        let tracer = tracer.at(time);
-        // Paths of different moments have no surface in common, and roulette at the camera would have to be known for each pair.
-        let path = if self.has_motion || self.settings.path.roulette_depth == 0 {
-            SharedPath::alone(T::radiance(&tracer, ray, points, rays))
-        } else {
-            T::path_to_share(&tracer, ray, points, rays)
-        };
-        (path, weight)
     }
 
     /// The moment of one sample, in shares of the exposure: one for all rays of its path.

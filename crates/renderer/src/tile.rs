@@ -39,21 +39,21 @@ impl Tile {
     }
 }
 
-/// Edge of the squares of a tile whose pixels of one colour are a group.
-const GROUP_EDGE: u32 = 4;
-
 impl Tile {
-    /// Groups of up to eight neighbouring pixels, all of one colour of a chessboard over the film: of each the places in the tile,
-    /// row by row.
-    pub(crate) fn groups(self) -> impl Iterator<Item = impl Iterator<Item = usize>> {
+    /// Groups of neighbouring pixels, all of one colour of a chessboard over the film and from a rectangle of the given size: of
+    /// each the places in the tile, row by row.
+    pub(crate) fn groups(
+        self,
+        rectangle: [u32; 2],
+    ) -> impl Iterator<Item = impl Iterator<Item = usize>> {
         let [width, height] = self.size;
-        let squares = (0..height.div_ceil(GROUP_EDGE))
-            .flat_map(move |y| (0..width.div_ceil(GROUP_EDGE)).map(move |x| [x, y]));
+        let squares = (0..height.div_ceil(rectangle[1]))
+            .flat_map(move |y| (0..width.div_ceil(rectangle[0])).map(move |x| [x, y]));
         squares.flat_map(|square| [0, 1].map(|colour| (square, colour))).map(
             move |(square, colour)| {
                 let range = |axis: usize| {
-                    let begin = square[axis] * GROUP_EDGE;
-                    begin..(begin + GROUP_EDGE).min(self.size[axis])
+                    let begin = square[axis] * rectangle[axis];
+                    begin..(begin + rectangle[axis]).min(self.size[axis])
                 };
                 let (columns, rows) = (range(0), range(1));
                 rows.flat_map(move |y| columns.clone().map(move |x| [x, y]))
@@ -107,6 +107,24 @@ mod tests {
             assert!(pixels.iter().all(|p| (0..2).all(|axis| {
                 (crop.offset[axis]..crop.offset[axis] + size[axis]).contains(&p[axis])
             })));
+        }
+    }
+
+    #[test]
+    fn groups_hold_every_pixel_of_a_tile_once_and_one_colour_each() {
+        for (size, rectangle) in [([16, 16], [4, 4]), ([16, 16], [8, 4]), ([5, 3], [4, 4])] {
+            let tile = Tile { offset: [7, 2], size };
+            let mut places = HashSet::new();
+            for group in tile.groups(rectangle) {
+                let group: Vec<usize> = group.collect();
+                let colours: HashSet<u32> =
+                    group.iter().map(|&place| tile.pixel(place).iter().sum::<u32>() % 2).collect();
+                assert!(group.len() <= (rectangle[0] * rectangle[1] / 2) as usize);
+                assert!(colours.len() <= 1);
+                assert!(group.into_iter().all(|place| places.insert(place)));
+            }
+            let pixels: Vec<[u32; 2]> = (0..places.len()).map(|place| tile.pixel(place)).collect();
+            assert_eq!(pixels, tile.pixels().collect::<Vec<_>>());
         }
     }
 

@@ -7,6 +7,7 @@ mod task;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
+use etendue_renderer::progressive;
 use etendue_scene::film::Crop;
 use etendue_scene::{LoadOptions, SamplerKind};
 
@@ -23,6 +24,7 @@ use task::Task;
 
 /// Renders a scene to a picture.
 #[derive(Debug, clap::Args)]
+#[allow(clippy::struct_excessive_bools, reason = "flags of a command line")]
 pub(crate) struct Arguments {
     #[command(flatten)]
     scene: SceneArguments,
@@ -43,6 +45,11 @@ pub(crate) struct Arguments {
     /// Where samples go; adaptive with --error or --time, uniform otherwise.
     #[arg(long, value_name = "NAME")]
     allocation: Option<Allocation>,
+    /// Let the paths of neighbouring pixels share what they find, and put samples where a pilot finds the error: most of the error
+    /// of indirect diffuse light is gone, neighbours have what is left in common, and there is no estimate of it. With Sobol'
+    /// points unless --sampler says otherwise.
+    #[arg(long, conflicts_with_all = ["error", "time", "allocation"])]
+    reuse: bool,
     /// Further layers of an EXR picture, separated by commas.
     #[arg(long, value_name = "LAYERS", value_delimiter = ',')]
     aov: Vec<Aov>,
@@ -93,14 +100,21 @@ enum Sampler {
 }
 
 /// Where samples go, by name.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+#[derive(Clone, Copy, Debug, clap::ValueEnum)]
 enum Allocation {
-    /// Where the error is, in rounds with an estimate of it.
+    /// Where the error is.
     Adaptive,
-    /// Where a pilot of a quarter of them found the error to be large for the brightness of the pixel; no estimate.
-    Piloted,
     /// To all pixels alike.
     Uniform,
+}
+
+impl From<Allocation> for progressive::Allocation {
+    fn from(allocation: Allocation) -> Self {
+        match allocation {
+            Allocation::Adaptive => Self::Adaptive,
+            Allocation::Uniform => Self::Uniform,
+        }
+    }
 }
 
 impl Arguments {
@@ -110,9 +124,11 @@ impl Arguments {
             crop: self.crop,
             samples_per_pixel: self.spp,
             max_depth: self.max_depth,
-            sampler: self.sampler.map(|sampler| match sampler {
-                Sampler::Independent => SamplerKind::Independent,
-                Sampler::Sobol => SamplerKind::Sobol,
+            sampler: self.sampler.or(self.reuse.then_some(Sampler::Sobol)).map(|sampler| {
+                match sampler {
+                    Sampler::Independent => SamplerKind::Independent,
+                    Sampler::Sobol => SamplerKind::Sobol,
+                }
             }),
             seed: self.seed,
             ..self.scene.load_options()

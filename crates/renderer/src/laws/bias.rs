@@ -9,11 +9,11 @@ use super::scenes::{Sketch, rectangle, settings, sphere};
 use crate::progressive::{Allocation, Goal, Halt};
 use crate::{Image, RenderSettings, Renderer, Strategy};
 
-const SIZE: [u32; 2] = [12, 12];
-const PIXELS: usize = 144;
+pub(super) const SIZE: [u32; 2] = [12, 12];
+pub(super) const PIXELS: usize = 144;
 
 /// A floor with a sphere under a rectangle of half width `half`.
-fn lit_floor(half: f64) -> Scene {
+pub(super) fn lit_floor(half: f64) -> Scene {
     let mut sketch = Sketch::default();
     let (grey, black) = (sketch.grey(0.7), sketch.grey(0.0));
     sketch.shape(rectangle(DVec3::ZERO, [4.0, 4.0], DVec3::Z), grey);
@@ -24,15 +24,15 @@ fn lit_floor(half: f64) -> Scene {
 }
 
 /// Sums over many pictures.
-struct Sums {
+pub(super) struct Sums {
     pictures: f64,
     /// Σx and Σx² of the mean of each pixel's channels, and of that of the picture.
-    pixels: Vec<[f64; 2]>,
-    picture: [f64; 2],
+    pub(super) pixels: Vec<[f64; 2]>,
+    pub(super) picture: [f64; 2],
 }
 
 impl Sums {
-    fn of(count: u64, render: impl Fn(u64) -> Image) -> Self {
+    pub(super) fn of(count: u64, render: impl Fn(u64) -> Image) -> Self {
         let mut sums =
             Self { pictures: count as f64, pixels: vec![[0.0; 2]; PIXELS], picture: [0.0; 2] };
         let add = |sums: &mut [f64; 2], x: f64| {
@@ -49,19 +49,19 @@ impl Sums {
     }
 
     /// Mean and squared standard error.
-    fn mean(&self, [sum, squares]: [f64; 2]) -> [f64; 2] {
+    pub(super) fn mean(&self, [sum, squares]: [f64; 2]) -> [f64; 2] {
         let mean = sum / self.pictures;
         [mean, (squares / self.pictures - mean * mean) / (self.pictures - 1.0)]
     }
 }
 
 /// Difference in standard errors; 0 where neither varies and both are equal.
-fn z([a, var_a]: [f64; 2], [b, var_b]: [f64; 2]) -> f64 {
+pub(super) fn z([a, var_a]: [f64; 2], [b, var_b]: [f64; 2]) -> f64 {
     if a == b { 0.0 } else { (a - b) / (var_a + var_b).safe_sqrt() }
 }
 
 /// The probability that a normal variable is at least as far from 0.
-fn two_sided(z: f64) -> f64 {
+pub(super) fn two_sided(z: f64) -> f64 {
     1.0 - erf(z.abs() * core::f64::consts::FRAC_1_SQRT_2)
 }
 

@@ -11,6 +11,7 @@ mod health;
 mod media;
 mod motion;
 mod nesting;
+mod reuse;
 mod scenes;
 mod spectral;
 mod strategies;

@@ -89,6 +89,20 @@ impl Node {
         )
     }
 
+    /// Whether any of the light can arrive: `false` only where the importance is 0, at the cost of two products.
+    #[inline(always)]
+    pub(super) fn may_reach(&self, receiver: &Receiver) -> bool {
+        // A thousandth of the size covers rounding.
+        let reach = self.radius * 1.001;
+        let to_cluster = self.centre - receiver.position;
+        let behind = receiver.sides == Sides::Front && to_cluster.dot(receiver.normal) < -reach;
+        // A flat emitter shines to the front of its plane.
+        let is_flat =
+            self.normals.cos == 1.0 && self.cos_emission >= 0.0 && self.link & BOTH_FACES == 0;
+        let averted = is_flat && to_cluster.dot(self.axis) > reach;
+        !(behind || averted)
+    }
+
     /// The same from the squared distance of the cluster and its projections on its own axis and on
     /// the receiver's normal.
     ///

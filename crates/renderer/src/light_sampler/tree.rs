@@ -92,13 +92,13 @@ impl LightTree {
         Some(probability)
     }
 
-    /// The root, if it is of any importance. A pair's importances are not asked for here: a tree of
-    /// more than one emitter decides at its first pair.
+    /// The root, if it can be of any importance. Importances are not asked for here: a tree of more than one emitter decides at
+    /// its first pair, and a single one is chosen in any case.
     #[inline(always)]
     fn root_for(&self, receiver: &Receiver) -> Option<&Node> {
         let root = self.root.as_ref()?;
         let decides_below = matches!(root.link(), Link::Pair(_));
-        (decides_below || root.importance(receiver) > 0.0).then_some(root)
+        (decides_below || root.may_reach(receiver)).then_some(root)
     }
 }
 

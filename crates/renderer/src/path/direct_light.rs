@@ -15,15 +15,16 @@ use crate::settings::Strategy;
 use crate::statistics::RayCounts;
 
 impl<R: Rays, C: Channels> PathTracer<'_, '_, R, C> {
-    /// An estimate, by one light sample, of the light scattered towards the camera.
+    /// An estimate, by one light sample of `of`, of the light scattered towards the camera.
     #[inline(always)]
     pub(super) fn direct_light<S: Sampler>(
         &self,
         vertex: &Vertex<'_, C>,
         points: &S,
+        of: u32,
         rays: &mut RayCounts,
     ) -> C::Color {
-        match self.unoccluded_light(vertex, points) {
+        match self.unoccluded_light(vertex, points, of) {
             Some((light, sample)) if !self.occluded(vertex.point, &sample, rays) => light,
             _ => C::Color::black(),
         }
@@ -36,6 +37,7 @@ impl<R: Rays, C: Channels> PathTracer<'_, '_, R, C> {
         &self,
         vertex: &Vertex<'_, C>,
         points: &S,
+        of: u32,
     ) -> Option<(C::Color, LightSample<C::Color>)> {
         if self.light_sampling == LightSampling::Useless || !vertex.bsdf.lobes().continuous {
             return None;
@@ -49,7 +51,7 @@ impl<R: Rays, C: Channels> PathTracer<'_, '_, R, C> {
         let (f, scattering_density) = vertex.eval_pdf(wi);
         let scale = match sample.density {
             Density::Delta(p) => 1.0 / p,
-            Density::Continuous(p) => self.light_weight(p, scattering_density) / p,
+            Density::Continuous(p) => self.light_weight(p, scattering_density / of as f32) / p,
         };
         let light = (f * sample.radiance).scale(scale * wi.z.abs());
         (!light.is_black()).then_some((light, sample))

@@ -28,7 +28,7 @@ use crate::statistics::RayCounts;
 
 pub(crate) use distances::Distances;
 pub(crate) use first_hit::FirstHit;
-pub(crate) use reuse::{MOST, SharedPath};
+pub(crate) use reuse::{LightSamples, MOST, SharedPath};
 pub(crate) use transport::{Carried, Prepared, Surfaces, Transport, Volumes};
 
 /// Solves the rendering equation for one ray at a time.
@@ -115,6 +115,7 @@ impl<C: Channels> Vertex<'_, C> {
 }
 
 /// The state of a path under construction.
+#[derive(Clone, Copy)]
 struct Walk<C: Channels> {
     ray: Ray,
     channels: C,

@@ -21,6 +21,9 @@
 //! # Source
 //! Bekaert, Sbert, Halton, "Accelerating Path Tracing by Re-Using Paths", EGWR 2002.
 
+use core::marker::PhantomData;
+
+use etendue_brdf::Bsdf;
 use etendue_math::Spectrum;
 use etendue_math::glam::Vec3;
 use etendue_sampling::Sampler;
@@ -29,6 +32,7 @@ use etendue_scene::color::Primaries;
 use etendue_scene::geometry::{Ray, Rays, SurfacePoint};
 use etendue_scene::material::Varying;
 
+use super::scatter::Departure;
 use super::transport::Surfaces;
 use super::{Fate, PathTracer, Vertex, Walk};
 use crate::statistics::RayCounts;
@@ -36,10 +40,23 @@ use crate::statistics::RayCounts;
 /// What a path has found, and what of it may be shared.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct SharedPath {
-    /// What it keeps, and after [`PathTracer::share`] what it was lent.
-    pub(crate) radiance: Color,
+    /// What it keeps.
+    own: Color,
+    /// What it was lent, its own branch included.
+    lent: Color,
+    /// As it left the first vertex that scatters; nothing for a path without.
+    pub(crate) first: Option<First>,
     joint: Option<Joint>,
     branch: Option<Branch>,
+}
+
+/// A path as it leaves its first vertex that scatters.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct First {
+    /// What it has found so far.
+    pub(crate) radiance: Color,
+    /// Rays counted so far.
+    pub(crate) rays: u64,
 }
 
 /// The first diffuse vertex of a path.
@@ -122,10 +139,11 @@ impl Vertex<'_, Primaries> {
 impl<R: Rays> PathTracer<'_, '_, R, Primaries> {
     /// A path through the empty space between surfaces, cut where it can be shared.
     #[inline(always)]
-    pub(super) fn path_to_share<S: Sampler>(
+    pub(crate) fn path_to_share<S: Sampler>(
         &self,
         camera_ray: Ray,
         points: &S,
+        lights: LightSamples<S>,
         rays: &mut RayCounts,
     ) -> SharedPath {
         let longest = self.longest();
@@ -163,8 +181,19 @@ impl<R: Rays> PathTracer<'_, '_, R, Primaries> {
                 }
                 Some(_) => {}
             }
-            path.add(walk.throughput * self.direct_light(&vertex, points, rays));
-            match self.scatter::<Surfaces, S>(&vertex, edges, &mut walk, points) {
+            let is_first = path.first.is_none() && vertex.bsdf.lobes().continuous;
+            let count = if is_first { lights.count } else { 1 };
+            if is_first {
+                for which in 0..count {
+                    let light = self.direct_light(&vertex, &lights.points(which), count, rays);
+                    path.add((walk.throughput * light).scale(1.0 / count as f32));
+                }
+                path.first = Some(First { radiance: path.own, rays: rays.total() });
+            } else {
+                path.add(walk.throughput * self.direct_light(&vertex, points, 1, rays));
+            }
+            let departure = Departure::after(edges).with_lights(count).with_patience(PATIENCE);
+            match self.scatter::<Surfaces, S>(&vertex, departure, &mut walk, points) {
                 Fate::Continues | Fate::Passes => rays.indirect += 1,
                 Fate::Ends => break,
             }
@@ -174,63 +203,96 @@ impl<R: Rays> PathTracer<'_, '_, R, Primaries> {
 
     /// Shares out the branches of a group of paths.
     #[inline(always)]
-    pub(super) fn share(&self, paths: &mut [SharedPath], rays: &mut RayCounts) {
+    pub(crate) fn share(&self, paths: &mut [SharedPath], rays: &mut RayCounts) {
         for owner in 0..paths.len() {
-            let Some(branch) = paths[owner].branch else { continue };
-            let Some(depth) = paths[owner].joint.as_ref().map(|joint| joint.depth) else {
+            if let Some(branch) = paths[owner].branch
+                && !branch.radiance.is_black()
+            {
+                self.share_branch(paths, owner, &branch, rays);
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn share_branch(
+        &self,
+        paths: &mut [SharedPath],
+        owner: usize,
+        branch: &Branch,
+        rays: &mut RayCounts,
+    ) {
+        let Some(depth) = paths[owner].joint.as_ref().map(|joint| joint.depth) else { return };
+        let mut couplings = [0.0; MOST];
+        let mut sum = 0.0;
+        for (i, path) in paths.iter().enumerate().take(MOST) {
+            let Some(joint) = &path.joint else { continue };
+            if joint.depth != depth {
                 continue;
-            };
-            if branch.radiance.is_black() {
-                continue;
             }
-            let mut couplings = [0.0; MOST];
-            let mut sum = 0.0;
-            for (i, path) in paths.iter().enumerate().take(MOST) {
-                let Some(joint) = &path.joint else { continue };
-                if joint.depth != depth {
-                    continue;
-                }
-                let coupling = joint.coupling(&branch);
-                let sees = coupling > 0.0
-                    && (i == owner || {
-                        rays.shadow += 1;
-                        !self.rays.occluded(&joint.point.spawn_to(branch.position))
-                    });
-                if sees {
-                    couplings[i] = coupling;
-                    sum += coupling;
-                }
+            let coupling = joint.coupling(branch);
+            let sees = coupling > 0.0
+                && (i == owner || {
+                    rays.shadow += 1;
+                    !self.rays.occluded(&joint.point.spawn_to(branch.position))
+                });
+            if sees {
+                couplings[i] = coupling;
+                sum += coupling;
             }
-            // What is no number stays with the path that made it, to be reported once.
-            if !(sum.is_finite() && branch.radiance.is_finite()) {
-                (couplings, sum) = ([0.0; MOST], 1.0);
-                couplings[owner] = 1.0;
-            }
-            for (path, coupling) in paths.iter_mut().zip(couplings) {
-                if let Some(joint) = &path.joint
-                    && coupling > 0.0
-                {
-                    path.radiance += (joint.throughput * branch.radiance).scale(coupling / sum);
-                }
+        }
+        // What is no number stays with the path that made it, to be reported once.
+        if !(sum.is_finite() && branch.radiance.is_finite()) {
+            (couplings, sum) = ([0.0; MOST], 1.0);
+            couplings[owner] = 1.0;
+        }
+        for (path, coupling) in paths.iter_mut().zip(couplings) {
+            if let Some(joint) = &path.joint
+                && coupling > 0.0
+            {
+                path.lent += (joint.throughput * branch.radiance).scale(coupling / sum);
             }
         }
     }
 }
 
+/// The random numbers of the light samples at the first vertex that scatters, of which a path can have several: the samples of a
+/// pixel take runs of consecutive points.
+#[derive(Clone, Copy)]
+pub(crate) struct LightSamples<S> {
+    pub(crate) seed: u64,
+    pub(crate) pixel: [u32; 2],
+    /// Of the path.
+    pub(crate) sample: u64,
+    /// How many, at least 1.
+    pub(crate) count: u32,
+    pub(crate) sampler: PhantomData<S>,
+}
+
+impl<S: Sampler> LightSamples<S> {
+    #[inline(always)]
+    fn points(&self, which: u32) -> S {
+        S::at(self.seed, self.pixel, self.sample * u64::from(self.count) + u64::from(which))
+    }
+}
+
+/// The patience of roulette. Where the rest of a path is shared it is worth more: 4 makes a tenth less error at equal time than 1 in a
+/// Cornell box, and a fifth less around glass.
+const PATIENCE: f32 = 4.0;
+
 /// The largest group; of a larger one the others have nothing to do with the first.
-pub(crate) const MOST: usize = 8;
+pub(crate) const MOST: usize = 16;
 
 impl SharedPath {
-    /// What a path has found that does not share.
-    pub(crate) fn alone(radiance: Color) -> Self {
-        Self { radiance, ..Self::default() }
-    }
-
     #[inline(always)]
     fn add(&mut self, radiance: Color) {
         match &mut self.branch {
             Some(branch) => branch.radiance += radiance,
-            None => self.radiance += radiance,
+            None => self.own += radiance,
         }
+    }
+
+    /// All that the path has, after sharing.
+    pub(crate) fn radiance(&self) -> Color {
+        self.own + self.lent
     }
 }

@@ -9,13 +9,44 @@ use etendue_scene::geometry::Rays;
 
 use super::{Arrival, Fate, PathTracer, Transport, Vertex, View, Walk};
 
+/// How a path leaves a vertex.
+#[derive(Clone, Copy)]
+pub(super) struct Departure {
+    /// From the camera to here, as roulette counts them.
+    edges: u16,
+    /// How many light samples were taken here.
+    lights: u32,
+    /// How much less a path may carry than 1 before roulette ends it.
+    patience: f32,
+}
+
+impl Departure {
+    /// The usual one, after so many edges.
+    #[inline(always)]
+    pub(super) fn after(edges: u16) -> Self {
+        Self { edges, lights: 1, patience: 1.0 }
+    }
+
+    /// The same after several light samples.
+    #[inline(always)]
+    pub(super) fn with_lights(self, lights: u32) -> Self {
+        Self { lights, ..self }
+    }
+
+    /// The same with more patience.
+    #[inline(always)]
+    pub(super) fn with_patience(self, patience: f32) -> Self {
+        Self { patience, ..self }
+    }
+}
+
 impl<R: Rays, C: Channels> PathTracer<'_, '_, R, C> {
-    /// Chooses where the path goes on, and whether it does; `edges` lead from the camera to here.
+    /// Chooses where the path goes on, and whether it does.
     #[inline(always)]
     pub(super) fn scatter<T: Transport<Channels = C>, S: Sampler>(
         &self,
         vertex: &Vertex<'_, C>,
-        edges: u16,
+        departure: Departure,
         walk: &mut Walk<C>,
         points: &S,
     ) -> Fate {
@@ -36,6 +67,8 @@ impl<R: Rays, C: Channels> PathTracer<'_, '_, R, C> {
             Density::Delta(_) if passes => walk.arrival,
             Density::Delta(_) => Arrival::Certain,
             Density::Continuous(density) => {
+                // Against several light samples a scattered ray counts for less.
+                let density = density / departure.lights as f32;
                 Arrival::Scattered { receiver: vertex.receiver, density }
             }
         };
@@ -47,7 +80,7 @@ impl<R: Rays, C: Channels> PathTracer<'_, '_, R, C> {
             return Fate::Ends;
         }
         walk.ray = vertex.point.spawn(direction);
-        match self.roulette(vertex.dimension(Decision::Roulette), edges, walk, points) {
+        match self.roulette(vertex.dimension(Decision::Roulette), departure, walk, points) {
             Fate::Continues if passes => Fate::Passes,
             fate => fate,
         }
@@ -63,7 +96,7 @@ impl<R: Rays, C: Channels> PathTracer<'_, '_, R, C> {
     /// Russian roulette: ends paths that carry little and scales up the others.
     ///
     /// ```text
-    /// q = min(max(throughput) η², 0.95)
+    /// q = min(patience · max(throughput) η², 0.95)
     /// ```
     ///
     /// η² undoes the compression of radiance inside a medium, which the way out reverses.
@@ -71,7 +104,7 @@ impl<R: Rays, C: Channels> PathTracer<'_, '_, R, C> {
     pub(super) fn roulette<S: Sampler>(
         &self,
         dimension: Dimension,
-        edges: u16,
+        departure: Departure,
         walk: &mut Walk<C>,
         points: &S,
     ) -> Fate {
@@ -80,10 +113,10 @@ impl<R: Rays, C: Channels> PathTracer<'_, '_, R, C> {
         if largest <= 0.0 {
             return Fate::Ends;
         }
-        if u32::from(edges) < self.settings.roulette_depth {
+        if u32::from(departure.edges) < self.settings.roulette_depth {
             return Fate::Continues;
         }
-        let survival = (largest * walk.eta * walk.eta).min(0.95);
+        let survival = (departure.patience * largest * walk.eta * walk.eta).min(0.95);
         if points.sample_1d::<f32>(dimension) >= survival {
             return Fate::Ends;
         }

@@ -7,7 +7,7 @@ use etendue_scene::color::Primaries;
 use etendue_scene::geometry::{Ray, Rays};
 use etendue_scene::material::Varying;
 
-use super::reuse::SharedPath;
+use super::scatter::Departure;
 use super::transport::{Surfaces, Transport};
 use super::{Fate, PathTracer, Walk};
 use crate::statistics::RayCounts;
@@ -42,31 +42,12 @@ impl Transport for Surfaces {
             if tracer.is_inconsistent(&vertex, -walk.ray.direction, vertex.wo) {
                 break;
             }
-            radiance += walk.throughput * tracer.direct_light(&vertex, points, rays);
-            match tracer.scatter::<Self, S>(&vertex, depth, &mut walk, points) {
+            radiance += walk.throughput * tracer.direct_light(&vertex, points, 1, rays);
+            match tracer.scatter::<Self, S>(&vertex, Departure::after(depth), &mut walk, points) {
                 Fate::Continues | Fate::Passes => rays.indirect += 1,
                 Fate::Ends => break,
             }
         }
         radiance
-    }
-
-    #[inline(always)]
-    fn path_to_share<S: Sampler, R: Rays>(
-        tracer: &PathTracer<'_, '_, R, Primaries>,
-        camera_ray: Ray,
-        points: &S,
-        rays: &mut RayCounts,
-    ) -> SharedPath {
-        tracer.path_to_share(camera_ray, points, rays)
-    }
-
-    #[inline(always)]
-    fn share<R: Rays>(
-        tracer: &PathTracer<'_, '_, R, Primaries>,
-        paths: &mut [SharedPath],
-        rays: &mut RayCounts,
-    ) {
-        tracer.share(paths, rays);
     }
 }

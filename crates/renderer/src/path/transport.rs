@@ -10,7 +10,6 @@ use etendue_scene::material::PreparedMaterials;
 use etendue_scene::{Color, Scene};
 
 use super::PathTracer;
-use super::reuse::SharedPath;
 use crate::statistics::RayCounts;
 
 /// A configuration of the path tracer, compiled apart from the others.
@@ -31,27 +30,6 @@ pub(crate) trait Transport {
         points: &S,
         rays: &mut RayCounts,
     ) -> Color;
-
-    /// The same, and what others of a group may have of it; alone where nothing can be shared.
-    #[inline(always)]
-    fn path_to_share<S: Sampler, R: Rays>(
-        tracer: &PathTracer<'_, '_, R, Self::Channels>,
-        camera_ray: Ray,
-        points: &S,
-        rays: &mut RayCounts,
-    ) -> SharedPath {
-        SharedPath::alone(Self::radiance(tracer, camera_ray, points, rays))
-    }
-
-    /// Lets the paths of a group have what the others have found.
-    #[inline(always)]
-    fn share<R: Rays>(
-        tracer: &PathTracer<'_, '_, R, Self::Channels>,
-        paths: &mut [SharedPath],
-        rays: &mut RayCounts,
-    ) {
-        let _ = (tracer, paths, rays);
-    }
 }
 
 /// Empty space between surfaces.

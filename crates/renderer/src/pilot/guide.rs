@@ -4,19 +4,20 @@ use etendue_math::Real;
 
 use super::pixel::Pilot;
 
-/// No pixel gets more than this many times the mean.
-const MOST: f32 = 16.0;
+/// No pixel gets more than this many times the mean, or than this number.
+const MOST: f64 = 16.0;
+const MOST_OF_ALL: f64 = 2_147_483_648.0;
 
 /// Square of a tenth of white: what is darker counts as if it were not.
-const DARK: f32 = 0.01;
+pub(super) const DARK: f32 = 0.01;
 
 /// Samples go in proportion to this power of the relative variance per ray. The best one for a known variance would be ½ (Neyman); that
 /// of a pilot is a guess with a spread of its own.
 const POWER: f32 = 0.4;
 
-/// How many times less error the pilot has to promise. It promises too much, by the spread of its guesses: 1.4 where the
-/// error is the same everywhere.
-const WORTHWHILE: f32 = 1.6;
+/// How many times less error the pilot has to promise at equal cost. It promises too much, by the spread of its guesses: 1.4
+/// where the error is the same everywhere, 2 where few paths find most of the light.
+const WORTHWHILE: f32 = 2.5;
 
 /// Pixels to either side of a pixel that guide it, and the square of the standard deviation of their weights.
 const REACH: i32 = 2;
@@ -38,7 +39,14 @@ pub(super) fn pilot_samples(mean: u32) -> u32 {
 /// with Gaussian weights over the neighbours q, of sum 1.
 pub(super) struct Guide {
     width: usize,
-    worth: Vec<f32>,
+    worth: Vec<Worth>,
+}
+
+/// Relative squared error of the pilot, and rays per sample.
+#[derive(Clone, Copy, Debug, Default)]
+struct Worth {
+    error: f32,
+    rays: f32,
 }
 
 impl Guide {
@@ -55,7 +63,7 @@ impl Guide {
                 let Some(pilot) = at(x + dx, y + dy) else { continue };
                 let weight = Real::exp(-((dx * dx + dy * dy) as f32) / (2.0 * SPREAD));
                 weights += weight;
-                rays += weight * pilot.rays;
+                rays += weight * (pilot.rays[0] + pilot.rays[1]);
                 for (sum, c) in mean.iter_mut().zip(pilot.mean.to_array()) {
                     *sum += weight * c;
                 }
@@ -68,16 +76,16 @@ impl Guide {
                 variance / (mean * mean + DARK)
             };
             let sum: f32 = variance.into_iter().zip(mean).map(relative).sum();
-            // A film of one pixel has no neighbours.
-            let worth = sum / 3.0 / (rays / weights).max(1.0);
-            if worth.is_finite() { worth } else { 0.0 }
+            // A film of one pixel has no neighbours, and infinite ones say nothing.
+            let (error, rays) = (sum / 3.0, (rays / weights).max(1.0));
+            if (error * rays).is_finite() { Worth { error, rays } } else { Worth::default() }
         };
         let worth =
             (0..height).flat_map(|y| (0..width).map(move |x| (x, y))).map(|(x, y)| guided(x, y));
         Self { width: width as usize, worth: worth.collect() }
     }
 
-    /// The number of samples of every pixel, `mean` of them in the mean over the picture and at least `least`.
+    /// The number of samples of every pixel, at most `mean` of them in the mean over the picture and at least `least`.
     pub(super) fn samples(&self, least: u32, mean: u32) -> Vec<u32> {
         let mut samples = vec![mean; self.worth.len()];
         if least >= mean {
@@ -86,9 +94,9 @@ impl Guide {
         for colour in [0, 1] {
             let pixels: Vec<usize> =
                 (0..samples.len()).filter(|&i| self.colour(i) == colour).collect();
-            let worth: Vec<f32> = pixels.iter().map(|&i| self.worth[i]).collect();
-            if let Some(shares) = shares(&worth) {
-                let counts = counts(&shares, least, mean);
+            let worth: Vec<Worth> = pixels.iter().map(|&i| self.worth[i]).collect();
+            let counts = counts(&worth, least, mean);
+            if gain(&worth, &counts) > WORTHWHILE {
                 for (&pixel, count) in pixels.iter().zip(counts) {
                     samples[pixel] = count;
                 }
@@ -109,75 +117,98 @@ fn neighbours() -> impl Iterator<Item = (i32, i32)> {
         .filter(|(dx, dy)| (dx + dy) % 2 != 0)
 }
 
-/// What the pixels are worth, with a mean of 1; `None` where all may as well get the same.
-fn shares(variances: &[f32]) -> Option<Vec<f32>> {
-    let mean = |values: &mut dyn Iterator<Item = f32>| {
-        values.map(f64::from).sum::<f64>() as f32 / variances.len() as f32
-    };
-    let variance = mean(&mut variances.iter().copied());
-    if !(variance > 0.0 && variance.is_finite()) {
-        return None;
-    }
-    let root = mean(&mut variances.iter().map(|v| v.safe_sqrt()));
-    if variance / (root * root) < WORTHWHILE {
-        return None;
+/// A power of two for each pixel, in proportion to `(error / rays)^`[`POWER`] as nearly as that can be, with the largest factor
+/// that stays within the budget.
+fn counts(worth: &[Worth], least: u32, mean: u32) -> Vec<u32> {
+    let per_ray = |w: &Worth| w.error / w.rays;
+    let total: f64 = worth.iter().map(|w| f64::from(per_ray(w))).sum();
+    let average = (total / worth.len() as f64) as f32;
+    if !(average > 0.0 && average.is_finite()) {
+        return vec![mean; worth.len()];
     }
     // Where the pilot saw no difference at all there may be one.
-    let worth = |v: f32| Real::powf(v / variance + 1e-3, POWER);
-    let total = mean(&mut variances.iter().map(|&v| worth(v)));
-    Some(variances.iter().map(|&v| worth(v) / total).collect())
-}
-
-/// `k · share` of each, within bounds, with the `k` that spends the budget.
-fn counts(shares: &[f32], least: u32, mean: u32) -> Vec<u32> {
-    let most = (mean as f32 * MOST).min(u32::MAX as f32 / 2.0);
-    let count = |share: f32, k: f32| (share * k).clamp(least as f32, most) as u32;
-    let budget = u64::from(mean) * shares.len() as u64;
-    let cost = |k: f32| shares.iter().map(|&share| u64::from(count(share, k))).sum::<u64>();
-    let (mut affordable, mut excessive) = (0.0_f32, most / 1e-3);
-    // Halving finds the last bit of an f32 between two numbers of about one size.
-    for _ in 0..48 {
+    let level = |w: &Worth| POWER * Real::ln(per_ray(w) / average + 1e-3) / core::f32::consts::LN_2;
+    let levels: Vec<f32> = worth.iter().map(level).collect();
+    let (lowest, highest) =
+        (least.ilog2() as i32, (f64::from(mean) * MOST).min(MOST_OF_ALL).log2() as i32);
+    let count =
+        |level: f32, k: f32| 1_u32 << ((level + k + 0.5).floor() as i32).clamp(lowest, highest);
+    let budget = u64::from(mean) * worth.len() as u64;
+    let cost = |k: f32| levels.iter().map(|&level| u64::from(count(level, k))).sum::<u64>();
+    let (mut affordable, mut excessive) = (-64.0_f32, 64.0);
+    // Halving finds the last bits of an f32.
+    for _ in 0..32 {
         let middle = 0.5 * (affordable + excessive);
         if cost(middle) <= budget { affordable = middle } else { excessive = middle }
     }
-    shares.iter().map(|&share| count(share, affordable)).collect()
+    levels.iter().map(|&level| count(level, affordable)).collect()
+}
+
+/// How many times less error times rays there is than with equally many samples everywhere.
+///
+/// ```text
+/// Σ error · Σ rays / (Σ error/n · Σ rays n)
+/// ```
+fn gain(worth: &[Worth], counts: &[u32]) -> f32 {
+    let mut sums = [0.0_f64; 4];
+    for (worth, &count) in worth.iter().zip(counts) {
+        let (error, rays, count) =
+            (f64::from(worth.error), f64::from(worth.rays), f64::from(count));
+        for (sum, term) in sums.iter_mut().zip([error, rays, error / count, rays * count]) {
+            *sum += term;
+        }
+    }
+    (sums[0] * sums[1] / (sums[2] * sums[3])) as f32
 }
 
 #[cfg(test)]
 mod tests {
+    use etendue_math::Spectrum;
     use etendue_scene::Color;
 
     use super::*;
 
     const SIZE: [u32; 2] = [40, 30];
 
-    /// A picture whose left half varies `ratio` times as much (in σ) as the right one.
-    fn halves(ratio: f32) -> Vec<Pilot> {
+    /// A picture of which the four columns on the left vary `ratio` times as much (in σ) as the others.
+    fn striped(ratio: f32) -> Vec<Pilot> {
         (0..SIZE[0] * SIZE[1])
             .map(|i| Pilot {
                 mean: Color::splat(1.0),
-                variance: Color::splat(if i % SIZE[0] < 20 { ratio * ratio } else { 1.0 }),
-                rays: 4.0,
+                variance: Color::splat(if i % SIZE[0] < 4 { ratio * ratio } else { 1.0 }),
+                first_variance: Color::black(),
+                rays: [2.0, 2.0],
             })
             .collect()
     }
 
     #[test]
-    fn samples_go_where_the_variance_is_and_spend_the_budget() {
-        let samples = Guide::new(SIZE, &halves(8.0)).samples(16, 64);
+    fn samples_go_where_the_variance_is_within_the_budget() {
+        let samples = Guide::new(SIZE, &striped(32.0)).samples(16, 64);
         let total: u64 = samples.iter().map(|&n| u64::from(n)).sum();
-        // Each count is rounded down.
-        assert!((total as f64 / (64.0 * 1200.0) - 1.0).abs() < 1.0 / 64.0, "{total}");
-        let (left, right) = (samples[10 * 40 + 5], samples[10 * 40 + 35]);
-        // 64^0.4 = 5.3, but for the floor under what has no variance.
-        let ratio = left as f32 / right as f32;
-        assert!((4.8..5.5).contains(&ratio), "{left} {right}");
+        // Powers of two of a few kinds of pixels: up to half of the budget may be left.
+        assert!((32 * 1200..=64 * 1200).contains(&total), "{total}");
+        let (left, right) = (samples[10 * 40 + 1], samples[10 * 40 + 35]);
+        // 1024^0.4 = 16, but for the floor under what has no variance and the bounds.
+        assert!(left >= 8 * right, "{left} {right}");
+        assert!(samples.iter().all(|n| n.is_power_of_two() && (16..=1024).contains(n)));
+    }
+
+    #[test]
+    fn where_rays_cost_more_there_are_fewer_samples() {
+        let mut pilots = striped(32.0);
+        for pilot in pilots.iter_mut().filter(|pilot| pilot.variance.r > 1.0) {
+            pilot.rays = [100.0, 400.0];
+        }
+        let cheap = Guide::new(SIZE, &striped(32.0)).samples(16, 64);
+        let dear = Guide::new(SIZE, &pilots).samples(16, 64);
+        assert!(dear[10 * 40 + 1] < cheap[10 * 40 + 1]);
     }
 
     #[test]
     fn an_even_picture_gets_the_same_everywhere() {
-        for ratio in [1.0, 2.0] {
-            let samples = Guide::new(SIZE, &halves(ratio)).samples(16, 64);
+        for ratio in [1.0, 3.0] {
+            let samples = Guide::new(SIZE, &striped(ratio)).samples(16, 64);
             assert!(samples.iter().all(|&n| n == 64), "{ratio}");
         }
         let black = vec![Pilot::default(); 1200];
@@ -186,32 +217,35 @@ mod tests {
 
     #[test]
     fn a_pixel_does_not_guide_its_own_colour() {
-        let plain = halves(8.0);
-        let changed = |pixel: usize| {
-            let mut pilots = plain.clone();
-            pilots[pixel].variance = Color::splat(1e4);
-            Guide::new(SIZE, &pilots).samples(16, 64)
-        };
-        let before = Guide::new(SIZE, &plain).samples(16, 64);
+        let plain = striped(32.0);
+        let before = Guide::new(SIZE, &plain);
         let pixel = 12 * 40 + 30;
-        let after = changed(pixel);
-        assert_eq!(after[pixel], before[pixel]);
-        assert_eq!(after[pixel + 2], before[pixel + 2]);
-        assert!(after[pixel + 1] > before[pixel + 1]);
+        let mut pilots = plain;
+        pilots[pixel].variance = Color::splat(1e5);
+        let after = Guide::new(SIZE, &pilots);
+        for (i, (a, b)) in before.worth.iter().zip(&after.worth).enumerate() {
+            assert!(before.colour(i) != before.colour(pixel) || a.error == b.error);
+        }
+        assert!(after.worth[pixel + 1].error > before.worth[pixel + 1].error);
+        // Nor does its colour as a whole, by the budget.
+        let [before, after] = [before, after].map(|guide| guide.samples(16, 64));
+        let same = |i: usize| (i % 40 + i / 40) % 2 == pixel % 2;
+        assert!((0..1200).filter(|&i| same(i)).all(|i| before[i] == after[i]));
     }
 
     #[test]
     fn few_samples_are_all_pilot() {
         assert_eq!([1, 31, 32, 64, 100, 1 << 20].map(pilot_samples), [1, 31, 8, 16, 16, 1 << 18]);
-        let samples = Guide::new(SIZE, &halves(8.0)).samples(31, 31);
+        let samples = Guide::new(SIZE, &striped(32.0)).samples(31, 31);
         assert!(samples.iter().all(|&n| n == 31));
     }
 
     #[test]
     fn a_single_pixel_and_infinite_variances_do_no_harm() {
-        let one = [Pilot { mean: Color::splat(1.0), variance: Color::splat(2.0), rays: 1.0 }];
+        let one =
+            [Pilot { mean: Color::splat(1.0), variance: Color::splat(2.0), ..Pilot::default() }];
         assert_eq!(Guide::new([1, 1], &one).samples(16, 64), [64]);
-        let mut pilots = halves(8.0);
+        let mut pilots = striped(32.0);
         pilots[7].variance = Color::splat(f32::INFINITY);
         assert_eq!(Guide::new(SIZE, &pilots).samples(16, 64).len(), 1200);
     }

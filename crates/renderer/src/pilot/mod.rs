@@ -1,4 +1,9 @@
-//! Samples in proportion to what a pilot render of the same picture says of their use.
+//! Rendering that re-uses paths, and that a pilot tells where samples are worth most.
+//!
+//! # Re-use
+//! Pixels are grouped, and the paths of a group [share](crate::path) what they find behind their first diffuse surface. The
+//! error of indirect diffuse light falls with the size of the group, for a shadow ray per pair of paths. Neighbours have
+//! errors in common then, which the estimates of [`progressive`](crate::progressive) do not allow for.
 //!
 //! # Two passes
 //! The pilot draws the first quarter of the samples, the same number in every pixel. What is left goes where the error
@@ -8,102 +13,90 @@
 //! mean((x − μ)² / (μ² + 0.01))
 //! ```
 //!
-//! over all channels of all pixels ([`guide`]). Every pixel goes on with its one sequence of Sobol' points: halves of their own,
-//! as [`progressive`](crate::progressive) has them for its estimate of the error, are worse by 15 to 20 percent at 64 samples.
-//!
-//! Where the pilot promises little, all pixels get the same number: then it is better to leave no aligned power of two of
-//! Sobol' points unfinished.
+//! over all channels of all pixels ([`guide`]). Pixels go on with one sequence of Sobol' points each, in powers of two.
+//! Where the pilot promises little, all pixels get the same number. It also says how large groups are to be and how
+//! many light samples paths are to take at their first vertex ([`plan`]).
 //!
 //! # Without bias
 //! The pixels are those of a chessboard. How many samples a black one gets depends on nothing but the pilots of white
-//! ones, and the other way round, the sharing out of the budget included. A pixel is thus the mean of a number of samples that
-//! is independent of them.
+//! ones, and the other way round, the sharing out of the budget included; groups are of one colour. A pixel is thus the mean of a
+//! number of samples that is independent of them. What is planned for the whole picture weights no sample by its value: those of either
+//! pass have the same expectation whatever the plan.
+//!
+//! # Invariants
+//! The same bits for any number of threads, and no allocation per sample. 80 bytes per pixel while rendering.
 
 mod guide;
 mod pixel;
+mod plan;
 
 use core::marker::PhantomData;
 use core::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
 
 use etendue_math::Spectrum;
-use etendue_sampling::Sampler;
+use etendue_sampling::{Independent, Sampler, Sobol};
 use etendue_scene::geometry::{Rays, Task};
+use etendue_scene::scene::SamplerKind;
 
-use crate::configuration::Configured;
+use crate::configuration::Configuration;
 use crate::film::{Image, PixelFilter};
-use crate::path::{MOST, SharedPath, Transport};
+use crate::path::{LightSamples, MOST, SharedPath};
 use crate::render::{Progress, Renderer, Rendering};
 use crate::statistics::{SampleAddress, Statistics};
 use crate::tile::Tile;
 use guide::Guide;
 use pixel::{Extension, PilotPixel};
-
-/// A picture rendered after a pilot.
-#[derive(Clone, Debug, PartialEq)]
-pub struct PilotedRendering {
-    /// The picture, and how far it came.
-    pub rendering: Rendering,
-    /// Number of samples of each pixel, row by row.
-    pub samples: Vec<u32>,
-}
+use plan::Plan;
 
 impl Renderer<'_> {
-    /// Renders the film's crop with the settings' number of samples per pixel in the mean, and more of them where a pilot found the
-    /// error to be large for the brightness of the pixel.
+    /// Renders the film's crop as [`render`](Self::render) does, with paths that share what they find, and with more of the
+    /// samples where a pilot found the error to be large for the brightness of the pixel. Each sample has the same expectation.
     ///
-    /// The picture has the same expectation as that of [`render`](Self::render), and the same bits for any number of threads.
+    /// Paths through media, of wavelengths, of different moments, and with roulette at their first edge do not share: then it is
+    /// the same as [`render`](Self::render).
     ///
     /// * `report` is called after every tile of both passes, by the thread that finished it.
     /// * Once `cancel` is true, tiles under way are finished and no further ones begun; pixels that were not reached are black.
-    pub fn render_piloted(
+    pub fn render_with_reuse(
         &self,
         report: &(dyn Fn(Progress) + Sync),
         cancel: &AtomicBool,
-    ) -> PilotedRendering {
-        self.configured(RenderPiloted { renderer: self, report, cancel })
+    ) -> Rendering {
+        if !self.reuses_paths() {
+            return self.render(report, cancel);
+        }
+        match self.settings.sampler {
+            SamplerKind::Independent => self.with_pilot::<Independent>(report, cancel),
+            SamplerKind::Sobol => self.with_pilot::<Sobol>(report, cancel),
+        }
     }
-}
 
-struct RenderPiloted<'r, 'a> {
-    renderer: &'r Renderer<'a>,
-    report: &'r (dyn Fn(Progress) + Sync),
-    cancel: &'r AtomicBool,
-}
+    /// Whether [`render_with_reuse`](Self::render_with_reuse) does anything else than [`render`](Self::render).
+    pub fn reuses_paths(&self) -> bool {
+        self.configuration == Configuration::Surfaces
+            && !self.scene.has_motion()
+            && self.settings.path.roulette_depth > 0
+    }
 
-impl Configured for RenderPiloted<'_, '_> {
-    type Output = PilotedRendering;
-
-    fn run<S: Sampler, T: Transport>(self) -> PilotedRendering {
-        let Self { renderer, report, cancel } = self;
-        let crop = renderer.scene.film.crop;
-        let tiles = Tile::cover(&crop);
-        let pieces: Vec<Piece> = tiles.iter().map(|&tile| Piece::new(tile)).collect();
-        let passes = Passes {
-            renderer,
-            report,
-            cancel,
-            pieces,
-            done: Mutex::new((
-                Statistics::default(),
-                Progress { finished: 0, total: 2 * tiles.len() },
-            )),
-        };
-        let mean = renderer.settings.samples_per_pixel;
+    fn with_pilot<S: Sampler>(
+        &self,
+        report: &(dyn Fn(Progress) + Sync),
+        cancel: &AtomicBool,
+    ) -> Rendering {
+        let crop = self.scene.film.crop;
+        let passes = Passes::new(self, report, cancel);
+        let mean = self.settings.samples_per_pixel;
         let first = guide::pilot_samples(mean);
-        passes.draw::<S, T>(&|_| first);
-        let guide = Guide::new(crop.size, &passes.map(PilotPixel::pilot));
-        let counts = guide.samples(first, mean);
-        let index =
-            |[x, y]: [u32; 2]| ((y - crop.offset[1]) * crop.size[0] + x - crop.offset[0]) as usize;
-        passes.draw::<S, T>(&|pixel| counts[index(pixel)]);
-        let pixels = passes.map(PilotPixel::mean);
-        let samples = passes.map(PilotPixel::drawn);
-        let (statistics, progress) =
-            passes.done.into_inner().unwrap_or_else(PoisonError::into_inner);
-        let image =
-            Image::from_pixels(crop.size, pixels).unwrap_or_else(|| Image::black(crop.size));
-        PilotedRendering { rendering: Rendering { image, statistics, progress }, samples }
+        passes.draw::<S>(&|_| first, Plan::PILOT);
+        let pilots = passes.map(PilotPixel::pilot);
+        let counts = Guide::new(crop.size, &pilots).samples(first, mean);
+        let count = |[x, y]: [u32; 2]| {
+            let [column, row] = [x - crop.offset[0], y - crop.offset[1]];
+            counts[(row * crop.size[0] + column) as usize]
+        };
+        passes.draw::<S>(&count, Plan::of(&pilots));
+        passes.rendering()
     }
 }
 
@@ -129,19 +122,32 @@ struct Passes<'r, 'a> {
     done: Mutex<(Statistics, Progress)>,
 }
 
-impl Passes<'_, '_> {
+impl<'r, 'a> Passes<'r, 'a> {
+    fn new(
+        renderer: &'r Renderer<'a>,
+        report: &'r (dyn Fn(Progress) + Sync),
+        cancel: &'r AtomicBool,
+    ) -> Self {
+        let tiles = Tile::cover(&renderer.scene.film.crop);
+        let pieces: Vec<Piece> = tiles.into_iter().map(Piece::new).collect();
+        let progress = Progress { finished: 0, total: 2 * pieces.len() };
+        let done = Mutex::new((Statistics::default(), progress));
+        Self { renderer, report, cancel, pieces, done }
+    }
+
     /// Brings every pixel to its number of samples.
-    fn draw<S: Sampler, T: Transport>(&self, wanted: &(dyn Fn([u32; 2]) -> u32 + Sync)) {
+    fn draw<S: Sampler>(&self, wanted: &(dyn Fn([u32; 2]) -> u32 + Sync), plan: Plan) {
         let cancelled = || self.cancel.load(Ordering::Relaxed);
         self.renderer.share_out(&self.pieces, &cancelled, |piece: &Piece| {
             // A lock is poisoned by a panic outside of it, such as of a report.
             let mut pixels = piece.pixels.lock().unwrap_or_else(PoisonError::into_inner);
-            let task = ExtendTile::<S, T> {
+            let task = ExtendTile::<S> {
                 renderer: self.renderer,
                 tile: piece.tile,
                 pixels: &mut pixels,
                 wanted,
-                configuration: PhantomData,
+                plan,
+                sampler: PhantomData,
             };
             let statistics = self.renderer.scene.geometry.run(task);
             let mut done = self.done.lock().unwrap_or_else(PoisonError::into_inner);
@@ -160,67 +166,98 @@ impl Passes<'_, '_> {
         for piece in &self.pieces {
             let pixels = piece.pixels.lock().unwrap_or_else(PoisonError::into_inner);
             for ([x, y], pixel) in piece.tile.pixels().zip(pixels.iter()) {
-                let [x, y] = [x - crop.offset[0], y - crop.offset[1]];
-                plane[(y * crop.size[0] + x) as usize] = f(pixel);
+                let [column, row] = [x - crop.offset[0], y - crop.offset[1]];
+                plane[(row * crop.size[0] + column) as usize] = f(pixel);
             }
         }
         plane
     }
+
+    fn rendering(self) -> Rendering {
+        let size = self.renderer.scene.film.crop.size;
+        let pixels = self.map(PilotPixel::mean);
+        let image = Image::from_pixels(size, pixels).unwrap_or_else(|| Image::black(size));
+        let (statistics, progress) = self.done.into_inner().unwrap_or_else(PoisonError::into_inner);
+        Rendering { image, statistics, progress }
+    }
 }
 
 /// Bringing the pixels of one tile to their numbers of samples.
-struct ExtendTile<'t, 'r, 'a, S, T> {
+struct ExtendTile<'t, 'r, 'a, S> {
     renderer: &'r Renderer<'a>,
     tile: Tile,
     pixels: &'t mut [PilotPixel],
     wanted: &'t (dyn Fn([u32; 2]) -> u32 + Sync),
-    configuration: PhantomData<(S, T)>,
+    plan: Plan,
+    sampler: PhantomData<S>,
 }
 
-impl<S: Sampler, T: Transport> Task for ExtendTile<'_, '_, '_, S, T> {
+/// One pixel of a group.
+struct Member<'f> {
+    /// Within the tile, row by row.
+    place: usize,
+    pixel: [u32; 2],
+    filter: PixelFilter<'f>,
+    begin: u32,
+    extension: Extension,
+}
+
+impl Member<'_> {
+    fn takes(&self, sample: u32) -> bool {
+        (self.begin..self.extension.end()).contains(&sample)
+    }
+}
+
+impl<S: Sampler> Task for ExtendTile<'_, '_, '_, S> {
     type Output = Statistics;
 
     #[inline(always)]
     fn run<R: Rays>(self, rays: R) -> Statistics {
-        let Self { renderer, tile, pixels, wanted, .. } = self;
-        let tracer = renderer.tracer::<T::Channels, R>(rays);
+        let Self { renderer, tile, pixels, wanted, plan, .. } = self;
+        let seed = renderer.settings.seed;
+        let tracer = renderer.tracer(rays);
         let mut statistics = Statistics::default();
         let mut members: Vec<Member<'_>> = Vec::with_capacity(MOST);
-        for group in tile.groups() {
+        for group in tile.groups(plan.rectangle) {
             members.clear();
             members.extend(group.map(|place| {
-                let pixel = tile.pixel(place);
-                let state = pixels[place];
-                let end = wanted(pixel);
+                let (pixel, state) = (tile.pixel(place), pixels[place]);
                 let filter = renderer.filter.pixel(pixel);
-                Member { place, pixel, filter, begin: state.drawn(), extension: state.extend(end) }
+                let extension = state.extend(wanted(pixel));
+                Member { place, pixel, filter, begin: state.drawn(), extension }
             }));
             let begin = members.iter().map(|member| member.begin).min().unwrap_or(0);
             let end = members.iter().map(|member| member.extension.end()).max().unwrap_or(0);
             for sample in begin..end {
-                let taking =
-                    |member: &Member<'_>| (member.begin..member.extension.end()).contains(&sample);
                 let mut paths = [SharedPath::default(); MOST];
                 let mut weights = [0.0; MOST];
                 let mut count = 0;
-                for member in members.iter_mut().filter(|member| taking(member)) {
-                    let points = S::at(renderer.settings.seed, member.pixel, u64::from(sample));
+                for member in members.iter_mut().filter(|member| member.takes(sample)) {
+                    let (pixel, sample) = (member.pixel, u64::from(sample));
+                    let points = S::at(seed, pixel, sample);
+                    let (ray, weight) = renderer.camera_ray(&member.filter, 0.0, &points);
+                    let lights = LightSamples {
+                        seed,
+                        pixel,
+                        sample,
+                        count: plan.lights,
+                        sampler: PhantomData::<S>,
+                    };
                     let before = statistics.rays.total();
-                    (paths[count], weights[count]) = renderer.path_to_share::<S, T, R>(
-                        &tracer,
-                        &member.filter,
-                        &points,
-                        &mut statistics.rays,
-                    );
-                    member.extension.spend(statistics.rays.total() - before);
+                    let path = tracer.path_to_share(ray, &points, lights, &mut statistics.rays);
+                    let after = statistics.rays.total();
+                    let first = path.first.map_or(after, |first| first.rays);
+                    member.extension.spend([first - before, after - first]);
+                    (paths[count], weights[count]) = (path, weight);
                     count += 1;
                 }
-                T::share(&tracer, &mut paths[..count], &mut statistics.rays);
+                tracer.share(&mut paths[..count], &mut statistics.rays);
                 let found = paths.iter().zip(weights).take(count);
-                for (member, (path, weight)) in
-                    members.iter_mut().filter(|member| taking(member)).zip(found)
-                {
-                    if !member.extension.add(path.radiance.scale(weight)) {
+                let members = members.iter_mut().filter(|member| member.takes(sample));
+                for (member, (path, weight)) in members.zip(found) {
+                    let all = path.radiance().scale(weight);
+                    let first = path.first.map_or(all, |first| first.radiance.scale(weight));
+                    if !member.extension.add(all, first) {
                         let [column, row] = member.pixel;
                         let sample = u64::from(sample);
                         statistics.non_finite.record(SampleAddress { row, column, sample });
@@ -234,14 +271,4 @@ impl<S: Sampler, T: Transport> Task for ExtendTile<'_, '_, '_, S, T> {
         }
         statistics
     }
-}
-
-/// One pixel of a group.
-struct Member<'f> {
-    /// Within the tile, row by row.
-    place: usize,
-    pixel: [u32; 2],
-    filter: PixelFilter<'f>,
-    begin: u32,
-    extension: Extension,
 }

@@ -15,8 +15,10 @@ pub(super) struct Pilot {
     pub(super) mean: Color,
     /// The variance of the mean.
     pub(super) variance: Color,
-    /// Rays per sample.
-    pub(super) rays: f32,
+    /// That of what paths find up to their first vertex that scatters, light samples there included.
+    pub(super) first_variance: Color,
+    /// Rays per sample, up to there and from there on.
+    pub(super) rays: [f32; 2],
 }
 
 /// The sum of a pixel's samples so far, and what the first ones say.
@@ -65,55 +67,68 @@ pub(super) struct Extension {
 /// Unlike single samples, runs know that Sobol' points are even.
 struct Runs {
     length: u32,
-    present: PixelSum,
     left: u32,
+    count: u32,
+    all: Moments,
+    first: Moments,
+    rays: [u64; 2],
+}
+
+/// Of one kind of light.
+#[derive(Default)]
+struct Moments {
+    present: PixelSum,
     sum: Color,
     squares: Color,
-    count: u32,
-    rays: u64,
+}
+
+impl Moments {
+    fn end_run(&mut self) {
+        let mean = core::mem::take(&mut self.present).mean();
+        self.sum += mean;
+        self.squares += mean * mean;
+    }
+
+    /// Mean, and variance of the mean.
+    fn of(&self, runs: f32) -> [Color; 2] {
+        let mean = self.sum.scale(1.0 / runs.max(1.0));
+        if runs < 2.0 {
+            return [mean, Color::black()];
+        }
+        let (squares, means) = (self.squares.to_array(), mean.to_array());
+        // Cancellation may leave less than nothing.
+        let variance = core::array::from_fn::<f32, 3, _>(|i| {
+            ((squares[i] / runs - means[i] * means[i]) / (runs - 1.0)).max(0.0)
+        });
+        [mean, variance.into()]
+    }
 }
 
 impl Runs {
     fn of(samples: u32) -> Self {
         let length = (samples / RUNS).max(1);
-        Self {
-            length,
-            present: PixelSum::default(),
-            left: length,
-            sum: Color::black(),
-            squares: Color::black(),
-            count: 0,
-            rays: 0,
-        }
+        let (all, first) = (Moments::default(), Moments::default());
+        Self { length, left: length, count: 0, all, first, rays: [0; 2] }
     }
 
-    fn add(&mut self, radiance: Color) {
+    fn add(&mut self, all: Color, first: Color) {
         // What is not finite is reported by who adds it to the pixel.
-        let _ = self.present.add(radiance);
+        let _ = self.all.present.add(all);
+        let _ = self.first.present.add(first);
         self.left -= 1;
         if self.left == 0 {
-            let mean = self.present.mean();
-            self.sum += mean;
-            self.squares += mean * mean;
-            self.count += 1;
-            (self.present, self.left) = (PixelSum::default(), self.length);
+            self.all.end_run();
+            self.first.end_run();
+            (self.count, self.left) = (self.count + 1, self.length);
         }
     }
 
     fn pilot(&self) -> Pilot {
         let runs = self.count as f32;
-        let mean = self.sum.scale(1.0 / runs.max(1.0));
-        let variance = |square: f32, mean: f32| {
-            // Cancellation may leave less than nothing.
-            ((square / runs - mean * mean) / (runs - 1.0)).max(0.0)
-        };
-        let rays = self.rays as f32 / (self.count * self.length).max(1) as f32;
-        if self.count < 2 {
-            return Pilot { mean, variance: Color::black(), rays };
-        }
-        let (squares, means) = (self.squares.to_array(), mean.to_array());
-        let variance = core::array::from_fn::<f32, 3, _>(|i| variance(squares[i], means[i]));
-        Pilot { mean, variance: variance.into(), rays }
+        let [mean, variance] = self.all.of(runs);
+        let [_, first_variance] = self.first.of(runs);
+        let samples = (self.count * self.length).max(1) as f32;
+        Pilot { mean, variance, first_variance, rays: self.rays.map(|rays| rays as f32 / samples) }
     }
 }
 
@@ -123,22 +138,24 @@ impl Extension {
         self.end
     }
 
-    /// Takes account of the rays that a sample cost.
+    /// Takes account of the rays that a sample cost, up to its first vertex that scatters and from there on.
     #[inline]
-    pub(super) fn spend(&mut self, rays: u64) {
+    pub(super) fn spend(&mut self, rays: [u64; 2]) {
         if let Some(runs) = &mut self.runs {
-            runs.rays += rays;
+            for (sum, rays) in runs.rays.iter_mut().zip(rays) {
+                *sum += rays;
+            }
         }
     }
 
-    /// Adds one sample and says whether it counts.
+    /// Adds one sample, of which the path had found `first` at its first vertex that scatters, and says whether it counts.
     #[inline]
     #[must_use = "a sample that was left out has to be reported"]
-    pub(super) fn add(&mut self, radiance: Color) -> bool {
+    pub(super) fn add(&mut self, all: Color, first: Color) -> bool {
         if let Some(runs) = &mut self.runs {
-            runs.add(radiance);
+            runs.add(all, first);
         }
-        self.pixel.sum.add(radiance)
+        self.pixel.sum.add(all)
     }
 
     /// The pixel with all samples.
@@ -159,9 +176,9 @@ mod tests {
         let end = pixel.drawn() + values.len() as u32;
         let mut extension = pixel.extend(end);
         for &value in values {
-            let counts = extension.add(Color::splat(value));
+            let counts = extension.add(Color::splat(value), Color::black());
             assert_eq!(counts, value.is_finite());
-            extension.spend(3);
+            extension.spend([1, 2]);
         }
         *pixel = extension.finish();
     }
@@ -171,10 +188,13 @@ mod tests {
         let mut pixel = PilotPixel::default();
         extended(&mut pixel, &[1.0, 3.0, 2.0, 4.0, 3.0, 5.0, 4.0, 6.0]);
         // Runs of 2, 3, 4 and 5: their mean has the variance (1.5² + 0.5² + 0.5² + 1.5²) / (4 · 3).
-        let pilot =
-            Pilot { mean: Color::splat(3.5), variance: Color::splat(5.0 / 12.0), rays: 3.0 };
+        let pilot = Pilot {
+            mean: Color::splat(3.5),
+            variance: Color::splat(5.0 / 12.0),
+            ..Pilot::default()
+        };
         assert!((pixel.pilot().variance.r - pilot.variance.r).abs() < 1e-6, "a few roundings");
-        assert_eq!((pixel.pilot().mean, pixel.pilot().rays), (pilot.mean, 3.0));
+        assert_eq!((pixel.pilot().mean, pixel.pilot().rays), (pilot.mean, [1.0, 2.0]));
         extended(&mut pixel, &[8.0, f32::NAN]);
         assert_eq!((pixel.drawn(), pixel.mean()), (10, Color::splat(4.0)));
         assert_eq!(pixel.pilot().mean, pilot.mean);
@@ -185,8 +205,8 @@ mod tests {
         let mut pixel = PilotPixel::default();
         extended(&mut pixel, &[7.0]);
         assert_eq!(
-            pixel.pilot(),
-            Pilot { mean: Color::splat(7.0), variance: Color::black(), rays: 3.0 }
+            (pixel.pilot().mean, pixel.pilot().variance),
+            (Color::splat(7.0), Color::black())
         );
     }
 }

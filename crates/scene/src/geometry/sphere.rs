@@ -155,10 +155,9 @@ impl Sphere {
         let (position, error) =
             round_point(self.center + outward * self.radius, self.center, self.radius);
         let local = self.to_world.inverse_affine().transform_vector3(outward * self.radius);
-        let (theta, phi) = (
-            Real::atan2(Real::sqrt(local.x * local.x + local.y * local.y), local.z),
-            azimuth(local.y, local.x),
-        );
+        // Texture coordinates are as good in f32, and most points are asked for none.
+        let [x, y, z] = local.as_vec3().to_array();
+        let (theta, phi) = (Real::atan2((x * x + y * y).sqrt(), z), azimuth(y, x));
         let to_world = self.to_world.affine();
         let du = DVec3::new(-local.y, local.x, 0.0) * (2.0 * <f64 as Real>::PI);
         let normal = (outward * self.side).as_vec3();
@@ -167,10 +166,7 @@ impl Sphere {
             error,
             normal,
             shading_normal: normal,
-            uv: [
-                (phi * 0.5 * <f64 as Real>::FRAC_1_PI) as f32,
-                (theta * <f64 as Real>::FRAC_1_PI) as f32,
-            ],
+            uv: [phi * 0.5 * f32::FRAC_1_PI, theta * f32::FRAC_1_PI],
             tangent: Some(to_world.transform_vector3(du).as_vec3()),
             primitive: 0,
         }
@@ -213,9 +209,9 @@ pub(crate) fn round_point(exact: DVec3, anchor: DVec3, reach: f64) -> (Vec3, Vec
 }
 
 /// The angle of `(x, y)` in `[0, 2π)`.
-pub(crate) fn azimuth(y: f64, x: f64) -> f64 {
+pub(crate) fn azimuth<T: Real>(y: T, x: T) -> T {
     let phi = Real::atan2(y, x);
-    if phi < 0.0 { phi + 2.0 * <f64 as Real>::PI } else { phi }
+    if phi < T::ZERO { phi + T::lit(2.0) * T::PI } else { phi }
 }
 
 /// The common length of the columns if they are orthogonal and equally long.

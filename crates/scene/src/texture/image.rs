@@ -183,11 +183,11 @@ impl BitmapImage {
     pub(crate) fn bilinear(&self, [x, y]: [f32; 2], wrap: [Wrap; 2]) -> Color {
         let (column, fx) = split(x);
         let (row, fy) = split(y);
-        let (right, below) = (column.saturating_add(1), row.saturating_add(1));
-        let between = |row| {
-            self.wrapped(column, row, wrap) * (1.0 - fx) + self.wrapped(right, row, wrap) * fx
-        };
-        between(row) * (1.0 - fy) + between(below) * fy
+        let beside = |i: i32| [i, i.saturating_add(1)];
+        let [left, right] = beside(column).map(|column| wrap[0].apply(column, self.width));
+        let [above, below] = beside(row).map(|row| wrap[1].apply(row, self.height));
+        let between = |row| self.texel(left, row) * (1.0 - fx) + self.texel(right, row) * fx;
+        between(above) * (1.0 - fy) + between(below) * fy
     }
 
     /// How [`bilinear`](Self::bilinear) changes with `x` and with `y`, per texel.

@@ -7,6 +7,7 @@ use etendue_renderer::{Configuration, Image, RenderSettings, Renderer, Statistic
 use etendue_scene::Scene;
 
 use super::task::{Method, Task};
+use crate::clock::processor_seconds;
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
 use crate::output::{Aov, Channel, Sources};
@@ -19,6 +20,8 @@ pub(super) struct Drawing {
     pub(super) statistics: Statistics,
     pub(super) whole: Whole,
     pub(super) configuration: Configuration,
+    /// Processor time of all threads while rendering, where the system tells.
+    pub(super) processor_seconds: Option<f64>,
     /// Of a progressive render.
     pub(super) accuracy: Option<Accuracy>,
 }
@@ -44,6 +47,7 @@ pub(super) struct Accuracy {
 pub(super) fn draw(task: &Task, scene: &Scene, interrupt: &Interrupt) -> Result<Drawing, Failure> {
     let start = Instant::now();
     let settings = RenderSettings { threads: task.threads, ..RenderSettings::of_scene(scene) };
+    let before = processor_seconds();
     let renderer = Renderer::new(scene, settings)?;
     let seen = |aov: &Aov| !aov.is_of_samples();
     let features = if task.layers.iter().any(seen) {
@@ -53,7 +57,7 @@ pub(super) fn draw(task: &Task, scene: &Scene, interrupt: &Interrupt) -> Result<
     };
     let progress = ProgressDisplay::new("rendering", task.quiet);
     let (mut drawing, variance, samples) = match task.method {
-        method @ (Method::Plain | Method::Piloted) => {
+        method @ (Method::Plain | Method::Reuse) => {
             let drawing = plain(&renderer, method, interrupt, &progress);
             (drawing, Image::black([0, 0]), Vec::new())
         }
@@ -63,6 +67,8 @@ pub(super) fn draw(task: &Task, scene: &Scene, interrupt: &Interrupt) -> Result<
         }
     };
     progress.finish();
+    // The renderer's threads are still there.
+    drawing.processor_seconds = before.zip(processor_seconds()).map(|(before, now)| now - before);
     let sources = Sources { features: &features, variance: &variance, samples: &samples };
     drawing.layers = task.layers.iter().flat_map(|&aov| sources.channels(aov)).collect();
     Ok(drawing)
@@ -79,16 +85,25 @@ fn plain(
         progress.update(Standing::parts(now.finished, now.total));
     };
     let rendering = match method {
-        Method::Piloted => renderer.render_piloted(&report, interrupt.flag()).rendering,
+        Method::Reuse => renderer.render_with_reuse(&report, interrupt.flag()),
         _ => renderer.render(&report, interrupt.flag()),
     };
-    let finished = rendering.progress.finished == rendering.progress.total;
+    let etendue_renderer::Progress { finished, total } = rendering.progress;
+    let whole = if finished == total {
+        Whole::Yes
+    } else if method == Method::Reuse && renderer.reuses_paths() && 2 * finished >= total {
+        // The pilot has been everywhere.
+        Whole::WithFewerSamples
+    } else {
+        Whole::BlackInParts
+    };
     Drawing {
         image: rendering.image,
         layers: Vec::new(),
         statistics: rendering.statistics,
         configuration: renderer.configuration(),
-        whole: if finished { Whole::Yes } else { Whole::BlackInParts },
+        whole,
+        processor_seconds: None,
         accuracy: None,
     }
 }
@@ -122,6 +137,7 @@ fn progressive(
         statistics: rendering.statistics,
         configuration: renderer.configuration(),
         whole,
+        processor_seconds: None,
         accuracy: Some(Accuracy { error: rendering.error, rounds: rendering.rounds }),
     };
     (drawing, rendering.variance, rendering.samples)

@@ -113,7 +113,9 @@ impl Report<'_> {
         json!({
             "configuration": self.drawing.configuration.name(),
             "render_seconds": self.render_seconds,
+            "cpu_seconds": self.drawing.processor_seconds,
             "build_seconds": self.build_seconds,
+            "load_seconds": self.build_seconds,
             "samples": statistics.samples,
             "samples_per_pixel": self.samples_per_pixel(),
             "rays": statistics.rays.total(),

@@ -5,7 +5,7 @@ use std::time::Duration;
 use etendue_renderer::progressive::{Allocation, Goal};
 use etendue_scene::Scene;
 
-use super::{Allocation as Named, Arguments};
+use super::Arguments;
 use crate::failure::Failure;
 use crate::output::Aov;
 use crate::progress::Quiet;
@@ -29,12 +29,12 @@ pub(super) struct Task {
 }
 
 /// How samples are drawn.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Method {
     /// The scene's number of samples, pixel by pixel.
     Plain,
-    /// The scene's number of samples in the mean, after a pilot.
-    Piloted,
+    /// The scene's number of samples in the mean, of paths that share what they find.
+    Reuse,
     /// In rounds, with an estimate of the error.
     Progressive { goal: Goal, time: Option<Duration> },
 }
@@ -53,14 +53,14 @@ impl Task {
         let halves = layers.iter().any(|aov| aov.is_of_samples());
         let of_scene = scene.sampling.samples_per_pixel;
         let limit = if open_ended { arguments.spp } else { Some(of_scene) };
-        let method = if arguments.allocation == Some(Named::Piloted) {
-            if open_ended || halves {
+        let method = if arguments.reuse {
+            if halves {
                 return Err(Failure::usage(
-                    "--allocation piloted has no estimate of the error, which --error, --time and the layers variance and \
-                     samples need; take adaptive",
+                    "--reuse leaves nothing for the layers variance and samples, which need an estimate of the error; \
+                     leave it or them out",
                 ));
             }
-            Method::Piloted
+            Method::Reuse
         } else if open_ended || halves || arguments.allocation.is_some() {
             if limit == Some(1) {
                 return Err(Failure::usage(
@@ -68,11 +68,7 @@ impl Task {
                 ));
             }
             let usual = if open_ended { Allocation::Adaptive } else { Allocation::Uniform };
-            let allocation = match arguments.allocation {
-                Some(Named::Adaptive) => Allocation::Adaptive,
-                Some(Named::Uniform) => Allocation::Uniform,
-                Some(Named::Piloted) | None => usual,
-            };
+            let allocation = arguments.allocation.map_or(usual, Allocation::from);
             let goal = Goal { allocation, samples_per_pixel: limit, error: arguments.error };
             Method::Progressive { goal, time: arguments.time }
         } else {

@@ -7,6 +7,7 @@ use etendue_sampling::{Decision, Dimension, Sampler};
 use etendue_scene::color::Channels;
 use etendue_scene::geometry::{Ray, Rays};
 
+use super::super::scatter::Departure;
 use super::airlight::Beam;
 use super::shadow::Shadowed;
 use super::travel::Collision;
@@ -72,6 +73,7 @@ impl<'s, R: Rays, C: Channels> PathTracer<'_, 's, R, C> {
         };
         walk.view = View::Scattered;
         walk.ray = Ray::new(position, direction);
-        self.roulette(Dimension::vertex(depth, Decision::Roulette), edges, walk, points)
+        let departure = Departure::after(edges);
+        self.roulette(Dimension::vertex(depth, Decision::Roulette), departure, walk, points)
     }
 }

@@ -15,6 +15,7 @@ use etendue_scene::Color;
 use etendue_scene::geometry::{Ray, Rays};
 use etendue_scene::material::Varying;
 
+use super::scatter::Departure;
 use super::transport::{Carried, Transport, Volumes};
 use super::{Arrival, Fate, PathTracer, Walk};
 use crate::statistics::RayCounts;
@@ -114,7 +115,12 @@ impl<C: Carried> Transport for Volumes<C> {
                             } else {
                                 tracer.light_at_surface(&vertex, &course, points)
                             };
-                            let fate = tracer.scatter::<Self, S>(&vertex, edges, &mut walk, points);
+                            let fate = tracer.scatter::<Self, S>(
+                                &vertex,
+                                Departure::after(edges),
+                                &mut walk,
+                                points,
+                            );
                             let onwards = walk.ray.direction;
                             course.medium = match crossing {
                                 Some(crossing)

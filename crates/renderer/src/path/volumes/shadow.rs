@@ -37,7 +37,7 @@ impl<'s, R: Rays, C: Channels> PathTracer<'_, 's, R, C> {
         course: &Course<'s>,
         points: &S,
     ) -> Option<Shadowed<'s, C>> {
-        let (light, sample) = self.unoccluded_light(vertex, points)?;
+        let (light, sample) = self.unoccluded_light(vertex, points, 1)?;
         let ray = match sample.target {
             Some(target) => vertex.point.spawn_to(target),
             None => vertex.point.spawn(sample.direction),

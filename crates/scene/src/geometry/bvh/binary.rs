@@ -108,7 +108,9 @@ fn below(
         for node in &mut others {
             node.parent += right;
             if let Form::Inner(children) = &mut node.form {
-                children.iter_mut().for_each(|child| *child += right);
+                for child in children.iter_mut() {
+                    *child += right;
+                }
             }
         }
         nodes.append(&mut others);
@@ -119,6 +121,8 @@ fn below(
     #[cfg(not(feature = "std"))]
     let children = parts.map(|part| build(part, nodes));
     nodes[root as usize].form = Form::Inner(children);
-    children.iter().for_each(|&child| nodes[child as usize].parent = root);
+    for child in children {
+        nodes[child as usize].parent = root;
+    }
     root
 }

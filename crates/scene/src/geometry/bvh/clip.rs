@@ -15,7 +15,7 @@ const PAD: f64 = 16.0 * 0.5 * f32::EPSILON as f64;
 /// A box around the part of a triangle with `low ≤ x ≤ high` along an axis, cut down to a box that holds all of the triangle
 /// that matters. Empty where there is no such part.
 pub(super) fn clipped(corners: &Corners, bounds: &Aabb, axis: usize, low: f32, high: f32) -> Aabb {
-    let [a, b, c] = corners.map(|corner| corner.as_dvec3());
+    let [a, b, c] = corners.map(Vec3::as_dvec3);
     let (low, high) = (f64::from(low), f64::from(high));
     let (mut least, mut largest) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
     let mut grow = |p: DVec3| {

@@ -41,7 +41,9 @@ impl Collapse {
 
     fn find(&mut self, tree: &Tree, node: u32) {
         let Form::Inner(children) = tree.nodes[node as usize].form else { return };
-        children.into_iter().for_each(|child| self.find(tree, child));
+        for child in children {
+            self.find(tree, child);
+        }
         let mut costs = [0.0; LANES];
         costs[0] = tree.nodes[node as usize].bounds.half_area() + self.shares(children, LANES).1;
         for n in 2..=LANES {

@@ -131,7 +131,7 @@ impl Grid {
                 continue;
             }
             // The highest bit in which the two differ.
-            let bit = 31 - (from ^ to).leading_zeros();
+            let bit = (from ^ to).ilog2();
             let place = (to >> bit << bit) as f32 / cells;
             let position = self.start[axis] + place * self.extent;
             let size = (1_u32 << bit) as f32 / cells;

@@ -146,7 +146,9 @@ impl Tree {
         if depth + usize::from(height) > MAX_DEPTH {
             return;
         }
-        involved.iter().for_each(|&n| touched[n as usize] = true);
+        for &n in &involved {
+            touched[n as usize] = true;
+        }
         let grandparent = self.parent(parent);
         self.replace(grandparent, parent, sibling);
         // `above` may have been the parent itself only if the place is the sibling, which is excluded.
