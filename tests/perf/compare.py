@@ -7,7 +7,8 @@ usage: compare.py --baseline OLD [--candidate NEW] [--peer] [--rounds 5] [--spp 
 DRJIT_LIBLLVM_PATH where its LLVM is not found). Every round renders every scene by every contestant with a seed of its own.
 
 time     processor seconds of a render less those of a picture of one pixel: loading, building and the compiler of Mitsuba do not count
-relMSE   mean((x − r)² / (r² + 0.01)) against r of `--reference-spp` samples by the baseline (another seed), kept in `--cache`
+relMSE   mean((x − r)² / (r² + 0.01)) against r of `--reference-spp` samples by the baseline (other seeds), kept in `--cache`,
+         less the error that its two halves show r to have
 effic.   1 / (relMSE · time)
 
 Ratios are medians of the rounds' (first over second: above 1 the second is better), with the least and the greatest.
@@ -25,8 +26,8 @@ import pictures
 import program
 import scenes
 
-# Seed of the reference; rounds have theirs from 1.
-REFERENCE_SEED = 1_000_000
+# Seeds of the reference's halves; rounds have theirs from 1.
+REFERENCE_SEEDS = [1_000_000, 2_000_000]
 
 
 class Binary:
@@ -50,14 +51,19 @@ class Binary:
 
 
 def reference(name, scene, options):
-    """The converged picture of a scene, from the cache if it is there."""
+    """The converged picture of a scene, of which the two halves are in the cache if they are there."""
     os.makedirs(options.cache, exist_ok=True)
-    path = os.path.join(options.cache, f"{name}-{options.size}-{options.reference_spp}-{checksum(os.path.dirname(scene)):08x}.pfm")
+    return pictures.Reference(*(half(name, scene, options, seed) for seed in REFERENCE_SEEDS))
+
+
+def half(name, scene, options, seed):
+    stem = f"{name}-{options.size}-{options.reference_spp}-{checksum(os.path.dirname(scene)):08x}-{seed}"
+    path = os.path.join(options.cache, f"{stem}.pfm")
     if not os.path.exists(path):
         # The extension decides the format, so that of an unfinished picture is the same.
         unfinished = path.removesuffix(".pfm") + ".part.pfm"
-        size = f"{options.size}x{options.size}"
-        arguments = ["--size", size, "--spp", options.reference_spp, "--seed", REFERENCE_SEED, "--sampler", "independent"]
+        size, samples = f"{options.size}x{options.size}", options.reference_spp // 2
+        arguments = ["--size", size, "--spp", samples, "--seed", seed, "--sampler", "sobol"]
         program.render(options.baseline, scene, unfinished, *arguments, threads=os.cpu_count())
         os.rename(unfinished, path)
     return pictures.read_pfm(path)
@@ -78,7 +84,7 @@ def measure(contestants, ideal, rounds):
     for seed in range(1, rounds + 1):
         for name, contestant in contestants.items():
             seconds, picture = contestant.render(seed)
-            measured[name].append((seconds, pictures.relative_mse(picture, ideal)))
+            measured[name].append((seconds, ideal.relative_mse(picture)))
     return measured
 
 
@@ -129,7 +135,7 @@ def main():
     parser.add_argument("--rounds", type=int, default=5)
     parser.add_argument("--spp", type=int, default=64)
     parser.add_argument("--size", type=int, default=256)
-    parser.add_argument("--reference-spp", type=int, default=1024)
+    parser.add_argument("--reference-spp", type=int, default=2048)
     parser.add_argument("--cache", default="target/perf")
     parser.add_argument("--only", type=lambda text: text.split(","))
     parser.add_argument("--document", help="where the part `pictures` (of --peer) is written")

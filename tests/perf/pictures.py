@@ -37,8 +37,19 @@ def write_png(path, picture):
             file.write(struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data)))
 
 
-def relative_mse(picture, reference):
-    """mean((x − r)² / (r² + 0.01)), over pixels and channels."""
-    if not np.isfinite(picture).all():
-        raise SystemExit("a picture has pixels that are not finite")
-    return float(np.mean((picture - reference) ** 2 / (reference**2 + 0.01)))
+class Reference:
+    """A picture to compare with, the mean of two of equally many samples, from whose difference its own error is known."""
+
+    def __init__(self, first, second):
+        self.picture = (first + second) / 2
+        self.error = float(np.mean((first - second) ** 2 / 4 / self._scale()))
+
+    def _scale(self):
+        return self.picture**2 + 0.01
+
+    def relative_mse(self, picture):
+        """mean((x − r)² / (r² + 0.01)), over pixels and channels, less that of the reference itself."""
+        if not np.isfinite(picture).all():
+            raise SystemExit("a picture has pixels that are not finite")
+        squares = (picture - self.picture) ** 2 / self._scale()
+        return max(float(np.mean(squares)) - self.error, 1e-9)

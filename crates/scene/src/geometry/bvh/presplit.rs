@@ -175,12 +175,13 @@ mod tests {
 
     /// Triangles from one corner of a cube to the opposite one, each a little beside the last and longer.
     fn diagonals() -> List {
-        let triangle = |i: u8| {
-            let shift = Vec3::new(0.01, -0.02, 0.013) * f32::from(i);
-            let long = 0.2 + 0.008 * f32::from(i);
+        let triangle = |i: u16| {
+            let place = f32::from(i) / 400.0;
+            let shift = Vec3::new(1.0, -2.0, 1.3) * place;
+            let long = 0.2 + 0.8 * place;
             [shift, shift + Vec3::ONE * long, shift + Vec3::new(1.0, 1.01, 1.0) * long]
         };
-        List((0..100).map(triangle).collect())
+        List((0..400).map(triangle).collect())
     }
 
     #[test]
