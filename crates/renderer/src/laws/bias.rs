@@ -27,8 +27,8 @@ pub(super) fn lit_floor(half: f64) -> Scene {
 pub(super) struct Sums {
     pictures: f64,
     /// Σx and Σx² of the mean of each pixel's channels, and of that of the picture.
-    pub(super) pixels: Vec<[f64; 2]>,
-    pub(super) picture: [f64; 2],
+    pixels: Vec<[f64; 2]>,
+    picture: [f64; 2],
 }
 
 impl Sums {
@@ -49,20 +49,36 @@ impl Sums {
     }
 
     /// Mean and squared standard error.
-    pub(super) fn mean(&self, [sum, squares]: [f64; 2]) -> [f64; 2] {
+    fn mean(&self, [sum, squares]: [f64; 2]) -> [f64; 2] {
         let mean = sum / self.pictures;
         [mean, (squares / self.pictures - mean * mean) / (self.pictures - 1.0)]
     }
 }
 
 /// Difference in standard errors; 0 where neither varies and both are equal.
-pub(super) fn z([a, var_a]: [f64; 2], [b, var_b]: [f64; 2]) -> f64 {
+fn z([a, var_a]: [f64; 2], [b, var_b]: [f64; 2]) -> f64 {
     if a == b { 0.0 } else { (a - b) / (var_a + var_b).safe_sqrt() }
 }
 
 /// The probability that a normal variable is at least as far from 0.
-pub(super) fn two_sided(z: f64) -> f64 {
+fn two_sided(z: f64) -> f64 {
     1.0 - erf(z.abs() * core::f64::consts::FRAC_1_SQRT_2)
+}
+
+/// Asserts that two ways of rendering have the same expectation in every pixel and as a whole; `alike` pixels have errors in common.
+pub(super) fn assert_equal_means(a: &Sums, b: &Sums, alike: f64) {
+    let zs: Vec<f64> =
+        a.pixels.iter().zip(&b.pixels).map(|(&x, &y)| z(a.mean(x), b.mean(y))).collect();
+    // Šidák: one false alarm in 100 for all pixels together.
+    let each = 1.0 - Real::powf(0.99, 1.0 / PIXELS as f64);
+    let worst = zs.iter().copied().fold(0.0, |worst: f64, z| worst.max(z.abs()));
+    assert!(two_sided(worst) > each, "{worst}");
+    // Σz² of n pixels is χ² with n degrees of freedom: mean n, variance 2n, times the pixels that have errors in common; 4 standard
+    // deviations.
+    let squares: f64 = zs.iter().map(|z| z * z).sum();
+    let n = PIXELS as f64;
+    assert!((squares - n).abs() < 4.0 * Real::sqrt(2.0 * n * alike), "{squares}");
+    assert!(z(a.mean(a.picture), b.mean(b.picture)).abs() < 4.0);
 }
 
 fn goal(allocation: Allocation) -> Goal {
@@ -87,21 +103,7 @@ fn every_pixel_has_the_mean_of_uniform_sampling() {
     let draw = |allocation, seed| draw(&scene, Strategy::Mis, allocation, 500, seed);
     let uniform = draw(Allocation::Uniform, 0);
     let adaptive = draw(Allocation::Adaptive, 10_000);
-    let zs: Vec<f64> = uniform
-        .pixels
-        .iter()
-        .zip(&adaptive.pixels)
-        .map(|(&u, &a)| z(uniform.mean(u), adaptive.mean(a)))
-        .collect();
-    // Šidák: one false alarm in 100 for all pixels together.
-    let each = 1.0 - Real::powf(0.99, 1.0 / PIXELS as f64);
-    let worst = zs.iter().copied().fold(0.0, |worst: f64, z| worst.max(z.abs()));
-    assert!(two_sided(worst) > each, "{worst}");
-    // Σz² of n pixels is χ² with n degrees of freedom: mean n, variance 2n; 4 standard deviations.
-    let squares: f64 = zs.iter().map(|z| z * z).sum();
-    let n = PIXELS as f64;
-    assert!((squares - n).abs() < 4.0 * Real::sqrt(2.0 * n), "{squares}");
-    assert!(z(uniform.mean(uniform.picture), adaptive.mean(adaptive.picture)).abs() < 4.0);
+    assert_equal_means(&uniform, &adaptive, 1.0);
 }
 
 #[test]

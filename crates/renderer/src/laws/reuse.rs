@@ -7,7 +7,7 @@ use etendue_math::glam::DVec3;
 use etendue_scene::scene::SamplerKind;
 use etendue_scene::{Color, Scene};
 
-use super::bias::{PIXELS, SIZE, Sums, two_sided, z};
+use super::bias::{PIXELS, SIZE, Sums, assert_equal_means};
 use super::scenes::{Sketch, rectangle, settings, sphere};
 use crate::{RenderSettings, Renderer, Rendering, Strategy};
 
@@ -76,21 +76,8 @@ fn every_pixel_has_the_mean_of_paths_that_do_not_share() {
         assert_eq!(rendering.statistics.non_finite.count(), 0);
         rendering.image
     });
-    let zs: Vec<f64> = plain
-        .pixels
-        .iter()
-        .zip(&shared.pixels)
-        .map(|(&p, &s)| z(plain.mean(p), shared.mean(s)))
-        .collect();
-    // Šidák: one false alarm in 100 for all pixels together.
-    let each = 1.0 - Real::powf(0.99, 1.0 / PIXELS as f64);
-    let worst = zs.iter().copied().fold(0.0, |worst: f64, z| worst.max(z.abs()));
-    assert!(two_sided(worst) > each, "{worst}");
-    // Σz² of n pixels has mean n, and variance 2n times the 8 pixels that have errors in common; 4 standard deviations.
-    let squares: f64 = zs.iter().map(|z| z * z).sum();
-    let n = PIXELS as f64;
-    assert!((squares - n).abs() < 4.0 * Real::sqrt(2.0 * n * 8.0), "{squares}");
-    assert!(z(plain.mean(plain.picture), shared.mean(shared.picture)).abs() < 4.0);
+    // Groups of 8.
+    assert_equal_means(&plain, &shared, 8.0);
 }
 
 #[test]

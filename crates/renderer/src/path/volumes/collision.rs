@@ -7,11 +7,11 @@ use etendue_sampling::{Decision, Dimension, Sampler};
 use etendue_scene::color::Channels;
 use etendue_scene::geometry::{Ray, Rays};
 
-use super::super::scatter::Departure;
 use super::airlight::Beam;
 use super::shadow::Shadowed;
 use super::travel::Collision;
 use crate::light_sampler::{Receiver, Sides};
+use crate::path::scatter::Departure;
 use crate::path::{Arrival, Fate, LightSampling, PathTracer, View, Walk};
 
 /// A point that scatters from everywhere alike.
