@@ -12,6 +12,8 @@ use crate::output::{Metadata, Output};
 
 pub(super) struct Report<'a> {
     pub(super) render_seconds: f64,
+    /// Seconds of rendering before this process.
+    pub(super) seconds_before: f64,
     pub(super) build_seconds: f64,
     pub(super) drawing: &'a Drawing,
 }
@@ -55,10 +57,11 @@ impl Report<'_> {
             },
             samples: self.drawing.statistics.samples,
             seed: sampling.seed,
-            seconds: self.render_seconds,
+            seconds: self.seconds_before + self.render_seconds,
             non_finite: self.non_finite(),
-            configuration: self.drawing.configuration.name(),
+            configuration: self.drawing.configuration.name().to_owned(),
             error: self.error(),
+            part: None,
         }
     }
 
