@@ -155,6 +155,29 @@ fn a_signal_saves_picture_and_checkpoint_within_seconds_and_the_render_goes_on()
 }
 
 #[test]
+fn a_progressive_render_that_is_interrupted_goes_on_to_the_same_bits() {
+    let folder = Folder::new();
+    let adaptive = ["--allocation", "adaptive"];
+    let status = command(&folder, "700", &adaptive).status().expect("the command starts");
+    assert!(status.success());
+    let expected = Picture::read_pfm(&folder.path("a.pfm")).bits();
+    let target = format!("{CHECKPOINT}:20ms");
+    let kept = [&adaptive[..], &["--checkpoint", &target]].concat();
+    let mut child = command(&folder, "700", &kept).spawn().expect("the command starts");
+    wait_until(&mut child, || folder.path("a.checkpoint.previous").exists());
+    signal(&child, "-INT");
+    let outcome = Outcome::from(child.wait_with_output().expect("a child"));
+    assert_eq!(outcome.exit, Some(130), "{}", outcome.stderr);
+    let outcome = folder.run(&["resume", CHECKPOINT, "--quiet", "-o", "b.pfm"]);
+    assert_eq!(outcome.exit, Some(0), "{}", outcome.stderr);
+    assert!(Picture::read_pfm(&folder.path("b.pfm")).bits() == expected, "other bits");
+    assert!(
+        Picture::read_pfm(&folder.path("a.pfm")).bits() != expected,
+        "it was interrupted too late"
+    );
+}
+
+#[test]
 fn a_second_render_with_the_same_checkpoint_is_refused() {
     let folder = Folder::new();
     let mut child = kept(&folder, "1000000");

@@ -57,6 +57,35 @@ fn a_render_with_a_checkpoint_has_the_bits_of_one_without_and_more_samples_those
     }
 }
 
+#[test]
+fn a_progressive_render_goes_on_to_a_smaller_error_with_the_bits_of_one_that_was_asked_for_it() {
+    let folder = Folder::new();
+    let fixed = [&["render", &cornell_box(), "--quiet"], &SIZE[..]].concat();
+    let of = |error, output| [&fixed[..], &["--error", error, "-o", output]].concat();
+    succeed(&folder, &of("10%", "expected.pfm"));
+    succeed(&folder, &[&of("25%", "a.pfm")[..], &["--checkpoint", "a.checkpoint"]].concat());
+    assert_ne!(picture(&folder, "a.pfm"), picture(&folder, "expected.pfm"));
+    succeed(&folder, &["resume", "a.checkpoint", "--error", "10%", "--quiet"]);
+    assert_eq!(picture(&folder, "a.pfm"), picture(&folder, "expected.pfm"));
+    refuse(
+        &folder,
+        &[&fixed[..], &["--spp", "4", "-o", "a.pfm", "--checkpoint", "a.checkpoint"]].concat(),
+        2,
+        &["it was made with --allocation adaptive, now without"],
+    );
+}
+
+#[test]
+fn samples_that_stand_for_less_of_a_texture_are_another_render() {
+    let folder = Folder::new();
+    let scene = repository("scenes/effects/texture-filtering.xml");
+    let scene = scene.to_str().expect("UTF-8");
+    let fixed = ["render", scene, "-o", "a.pfm", "--quiet", "--checkpoint", "a.checkpoint"];
+    succeed(&folder, &[&fixed[..], &SIZE, &["--spp", "2"]].concat());
+    let more = ["resume", "a.checkpoint", "--spp", "3"];
+    refuse(&folder, &more, 2, &["it was made with --spp 2, now it is 3"]);
+}
+
 /// A render of the Cornell box of which a checkpoint has been written, of so many samples per pixel.
 fn begun(spp: &str) -> Folder {
     let folder = Folder::new();
@@ -199,5 +228,5 @@ fn a_checkpoint_that_finds_no_room_costs_neither_the_picture_nor_the_one_before(
     assert!(outcome.errors()[0].contains("a.checkpoint: cannot write"), "{}", outcome.stderr);
     assert_eq!(picture(&folder, "a.pfm"), picture(&begun("4"), "a.pfm"));
     assert_eq!(std::fs::read(folder.path("a.checkpoint")).ok(), Some(before));
-    assert!(!folder.names().iter().any(|name| name.ends_with(".tmp")), "{:?}", folder.names());
+    assert_eq!(folder.names(), ["a.checkpoint", "a.pfm"]);
 }

@@ -177,11 +177,13 @@ fn rounded(digits: [u32; LIMBS + 1], count: u32) -> f32 {
     let length = RADIX * top as u32 + (RADIX - quotient[top].leading_zeros());
     // With the 24 bits of a significand at least, or all of a subnormal number.
     let dropped = length.saturating_sub(24);
-    let bit = |place: u32| quotient[(place / RADIX) as usize] >> (place % RADIX) & 1;
-    let mut kept = 0;
-    for place in (dropped..length).rev() {
-        kept = kept << 1 | bit(place);
-    }
+    // The bits from a place on, 32 of them at least.
+    let from = |place: u32| {
+        let digit = (place / RADIX) as usize;
+        let next = quotient.get(digit + 1).copied().unwrap_or(0);
+        (u64::from(next) << RADIX | u64::from(quotient[digit])) >> (place % RADIX)
+    };
+    let kept = from(dropped) as u32 & 0x00ff_ffff;
     let (half, beyond) = if dropped == 0 {
         let twice = 2 * remainder;
         (twice >= divisor, twice > divisor)
@@ -190,7 +192,7 @@ fn rounded(digits: [u32; LIMBS + 1], count: u32) -> f32 {
         let (digit, offset) = ((place / RADIX) as usize, place % RADIX);
         let below = quotient[digit] & ((1 << offset) - 1) != 0
             || quotient[..digit].iter().any(|&digit| digit != 0);
-        (bit(place) == 1, below || remainder != 0)
+        (from(place) & 1 == 1, below || remainder != 0)
     };
     // Rounding up carries into the exponent as it has to: the encoding of floats is consecutive.
     let up = u32::from(half && (beyond || kept & 1 == 1));
@@ -210,7 +212,9 @@ fn rounded(digits: [u32; LIMBS + 1], count: u32) -> f32 {
 mod tests {
     use super::*;
     use crate::mix_u64;
-    use std::vec::Vec;
+
+    extern crate alloc;
+    use alloc::vec::Vec;
 
     /// Of any sign, any bits, and exponents from 2^`lowest` on over `span` of them.
     fn terms(count: u64, lowest: u32, span: u32) -> impl Iterator<Item = f32> {
@@ -231,7 +235,7 @@ mod tests {
 
     /// In units of the smallest f32; of numbers below 2⁻⁴⁰, which fit.
     fn reference(terms: impl IntoIterator<Item = f32>) -> i128 {
-        let units = |x: f32| (f64::from(x) * 2_f64.powi(149)) as i128;
+        let units = |x: f32| (f64::from(x) * f64::from_bits((1023 + 149) << 52)) as i128;
         terms.into_iter().map(units).sum()
     }
 
@@ -285,8 +289,8 @@ mod tests {
         // Numbers of the exponents 0 to 2²³ with the lowest bits set, scaled up to the largest.
         let small: Vec<f32> = terms(100, 127, 20).collect();
         let unscaled = sum(small.iter().copied()).total();
-        for exponent in -100..100 {
-            let scale = 2_f32.powi(exponent);
+        for exponent in 27..227 {
+            let scale = f32::from_bits(exponent << 23);
             assert_eq!(
                 sum(small.iter().map(|x| x * scale)).total(),
                 unscaled * scale,

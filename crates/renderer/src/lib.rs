@@ -60,6 +60,8 @@
 //! No bidirectional methods, no denoising, no tone mapping, no files: pictures leave as linear
 //! radiance.
 
+extern crate alloc;
+
 mod accumulation;
 mod codec;
 mod configuration;

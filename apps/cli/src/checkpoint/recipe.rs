@@ -1,5 +1,6 @@
 //! The command line of a stored render: what it takes to go on with it.
 
+use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
@@ -38,7 +39,7 @@ impl Recipe {
     /// # Errors
     /// A name that is not Unicode cannot be stored.
     pub(crate) fn of_process() -> Result<Self, Failure> {
-        let arguments = std::env::args_os().skip(2).map(|argument| argument.into_string());
+        let arguments = std::env::args_os().skip(2).map(OsString::into_string);
         let arguments = arguments.collect::<Result<_, _>>().map_err(|argument| {
             Failure::usage(format!(
                 "“{}” is not Unicode and cannot be stored in a checkpoint",

@@ -1,7 +1,7 @@
 //! `etendue merge`: from the parts of a render to its picture.
 
 use core::ops::Range;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use etendue_renderer::Accumulation;
 
@@ -39,13 +39,13 @@ struct Part {
 }
 
 impl Part {
-    fn read(path: &PathBuf) -> Result<Self, Failure> {
+    fn read(path: &Path) -> Result<Self, Failure> {
         let Stored { header, state } = part(path)?;
         let State::Plain(sums) = state else {
             let path = path.display();
             return Err(Failure::usage(format!("{path}: rounds of a render cannot be joined")));
         };
-        let part = Self { path: path.clone(), header, sums };
+        let part = Self { path: path.to_path_buf(), header, sums };
         if !part.sums.is_whole() {
             return Err(part.refuse("the part is not whole; the command that drew it finishes it"));
         }
@@ -73,7 +73,8 @@ impl Part {
 
 pub(crate) fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     let output = Output::check(&arguments.output)?;
-    let mut parts = arguments.parts.iter().map(Part::read).collect::<Result<Vec<_>, _>>()?;
+    let mut parts =
+        arguments.parts.iter().map(|path| Part::read(path)).collect::<Result<Vec<_>, _>>()?;
     if let [first, others @ ..] = &parts[..] {
         others.iter().try_for_each(|part| part.check_same_render(first))?;
     }
@@ -131,7 +132,8 @@ fn check_ranges(parts: &[Part]) -> Result<(), Failure> {
     let mut missing = Vec::new();
     let mut end = 0;
     let ranges = parts.iter().map(|part| part.sums.samples());
-    for range in ranges.chain([*samples_per_pixel..*samples_per_pixel]) {
+    let behind_all = core::iter::once(*samples_per_pixel..*samples_per_pixel);
+    for range in ranges.chain(behind_all) {
         if end < range.start {
             missing.push(missing_parts(&(end..range.start), *samples_per_pixel, *shard));
         }

@@ -1,7 +1,7 @@
 //! What a plain render knows.
 
+use alloc::sync::Arc;
 use core::ops::Range;
-use std::sync::Arc;
 
 use etendue_scene::Color;
 use etendue_scene::film::Crop;

@@ -1,9 +1,11 @@
 //! Renders in parts against renders in one go.
 
+use core::panic::AssertUnwindSafe;
 use core::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::panic::catch_unwind;
 use std::sync::{Mutex, PoisonError};
 
+use etendue_math::Real;
 use etendue_scene::Scene;
 use etendue_scene::scene::SamplerKind;
 
@@ -106,7 +108,7 @@ fn second_moments_are_those_of_the_samples() {
     let work = accumulate(&renderer, Accumulation::new(scene.film.crop, 0..SPP), 0);
     let (position, pixel) = ([20, 10], [20, 10]);
     let squares: f64 =
-        (0..SPP).map(|sample| f64::from(renderer.sample(pixel, u64::from(sample)).g).powi(2)).sum();
+        (0..SPP).map(|sample| f64::from(renderer.sample(pixel, u64::from(sample)).g).sqr()).sum();
     let found = f64::from(work.second_moments().pixel(position).g);
     let expected = squares / f64::from(SPP);
     // Each square and the mean are rounded to f32.
@@ -127,7 +129,7 @@ fn a_panic_leaves_all_finished_tiles() {
     let report =
         |_| assert_ne!(reports.fetch_add(1, Ordering::Relaxed), 3, "a panic that is meant");
     let outcome = catch_unwind(AssertUnwindSafe(|| {
-        renderer.accumulate(&work, &report, &AtomicBool::new(false))
+        renderer.accumulate(&work, &report, &AtomicBool::new(false));
     }));
     assert!(outcome.is_err());
     let work = work.into_inner().unwrap_or_else(PoisonError::into_inner);

@@ -1,6 +1,6 @@
 //! All pixels of a progressive render.
 
-use std::sync::Arc;
+use alloc::sync::Arc;
 
 use etendue_math::Spectrum;
 use etendue_scene::Color;

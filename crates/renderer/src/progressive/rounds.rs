@@ -1,7 +1,8 @@
 //! The rounds of a progressive render.
 
+use alloc::sync::Arc;
 use core::marker::PhantomData;
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use etendue_sampling::Sampler;
 use etendue_scene::film::Crop;

@@ -1,6 +1,6 @@
 //! What a progressive render knows.
 
-use std::sync::Arc;
+use alloc::sync::Arc;
 
 use etendue_scene::film::Crop;
 
