@@ -168,7 +168,7 @@ fn another_render_is_refused_with_what_differs() {
         (&["--max-depth", "8", "--seed", "3"], "it was made with --seed 0, now it is 3"),
         (&["--max-depth", "8", "--size", "8x8"], "it was made with --size 4x4, now it is 8x8"),
         (&["--max-depth", "8", "--spectral"], "it was made without --spectral, now it is on"),
-        (&["--max-depth", "8", "--without", "area-lights"], "without --without"),
+        (&["--max-depth", "8", "--without", "area-light"], "without --without"),
         (&["--max-depth", "8", "-D", "a=1"], "it was made without -D a, now it is 1"),
     ];
     for (more, says) in cases {
