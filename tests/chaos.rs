@@ -113,7 +113,7 @@ fn kill(times: usize, spp: &str) {
 
 #[test]
 fn renders_that_are_killed_go_on_to_the_same_bits() {
-    kill(8, "300");
+    kill(8, "150");
 }
 
 #[test]
@@ -158,12 +158,12 @@ fn a_signal_saves_picture_and_checkpoint_within_seconds_and_the_render_goes_on()
 fn a_progressive_render_that_is_interrupted_goes_on_to_the_same_bits() {
     let folder = Folder::new();
     let adaptive = ["--allocation", "adaptive"];
-    let status = command(&folder, "700", &adaptive).status().expect("the command starts");
+    let status = command(&folder, "200", &adaptive).status().expect("the command starts");
     assert!(status.success());
     let expected = Picture::read_pfm(&folder.path("a.pfm")).bits();
     let target = format!("{CHECKPOINT}:20ms");
     let kept = [&adaptive[..], &["--checkpoint", &target]].concat();
-    let mut child = command(&folder, "700", &kept).spawn().expect("the command starts");
+    let mut child = command(&folder, "200", &kept).spawn().expect("the command starts");
     wait_until(&mut child, || folder.path("a.checkpoint.previous").exists());
     signal(&child, "-INT");
     let outcome = Outcome::from(child.wait_with_output().expect("a child"));

@@ -60,7 +60,8 @@ fn a_render_with_a_checkpoint_has_the_bits_of_one_without_and_more_samples_those
 #[test]
 fn a_progressive_render_goes_on_to_a_smaller_error_with_the_bits_of_one_that_was_asked_for_it() {
     let folder = Folder::new();
-    let fixed = [&["render", &cornell_box(), "--quiet"], &SIZE[..]].concat();
+    let scene = cornell_box();
+    let fixed = [&["render", &scene, "--quiet"], &SIZE[..]].concat();
     let of = |error, output| [&fixed[..], &["--error", error, "-o", output]].concat();
     succeed(&folder, &of("10%", "expected.pfm"));
     succeed(&folder, &[&of("25%", "a.pfm")[..], &["--checkpoint", "a.checkpoint"]].concat());
@@ -89,8 +90,8 @@ fn samples_that_stand_for_less_of_a_texture_are_another_render() {
 /// A render of the Cornell box of which a checkpoint has been written, of so many samples per pixel.
 fn begun(spp: &str) -> Folder {
     let folder = Folder::new();
-    let fixed =
-        ["render", &cornell_box(), "-o", "a.pfm", "--quiet", "--checkpoint", "a.checkpoint"];
+    let scene = cornell_box();
+    let fixed = ["render", &scene, "-o", "a.pfm", "--quiet", "--checkpoint", "a.checkpoint"];
     succeed(&folder, &[&fixed[..], &SIZE, &["--spp", spp]].concat());
     folder
 }

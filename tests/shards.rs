@@ -143,6 +143,13 @@ fn a_part_that_is_there_is_not_drawn_again_and_another_one_is_not_replaced() {
         "it was made with --shard 1/2, now it is with --shard 2/2",
     );
     refused(&["--shard", "1/2", "-o", "a.exr", "--max-depth", "2"], "--max-depth");
-    refused(&["--shard", "1/2", "-o", "a.pfm"], "EXR");
     assert_eq!(content(), first);
+    let arguments = render(BOX, &["--shard", "1/2", "-o", "a.pfm"]);
+    let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    refuse(&folder, &arguments, 2, &["a.pfm", "parts of renders are EXR pictures"]);
+    let arguments = render(BOX, &["--shard", "2/15", "-o", "b.exr"]);
+    assert_eq!(run(&folder, &arguments).exit, Some(0), "a part of one sample");
+    let arguments = render(BOX, &["--shard", "1/15", "-o", "c.exr"]);
+    let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    refuse(&folder, &arguments, 2, &["--shard 1/15 has none of the 14 samples"]);
 }

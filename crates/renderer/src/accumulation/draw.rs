@@ -15,7 +15,7 @@ use crate::tile::Tile;
 const MOST: u32 = 64;
 
 impl Renderer<'_> {
-    /// Draws what is missing of an accumulation.
+    /// Draws what is missing of an accumulation, which is one of the film's crop.
     ///
     /// `work` is locked for moments only, and whole at any time: another thread may copy it for storing, and after a panic all
     /// tiles that were finished are in it.

@@ -93,7 +93,8 @@ fn more_samples_later_continue_a_round_that_the_limit_cut_short() {
     let renderer = renderer(&scene, 1);
     for allocation in [Allocation::Adaptive, Allocation::Uniform] {
         let few = advance(&renderer, nothing(&scene, allocation), &goal(allocation, 20), None);
-        let many = advance(&renderer, stored(&few), &goal(allocation, 64), None).rendering();
+        let many = advance(&renderer, stored(&few), &goal(allocation, 64), None);
+        let many = stored(&many).rendering();
         let direct = renderer.render_progressively(&goal(allocation, 64), &|_| (), &|| Halt::No);
         let [samples, expected] = [&many, &direct].map(|r| r.statistics.samples as f64);
         // Both spend their budget to a 64th of a level.

@@ -179,6 +179,8 @@ impl<'r, 'a> Rounds<'r, 'a> {
         let mut work = self.lock();
         work.levels = levels;
         work.begun = place + 1;
+        // A round that a smaller limit had cut short counts once, as what it becomes.
+        work.finished.truncate(place as usize);
         work.last = Some(stage);
         work.is_finished = false;
     }
