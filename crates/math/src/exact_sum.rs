@@ -163,20 +163,24 @@ fn rounded(digits: [u32; LIMBS + 1], count: u32) -> f32 {
     if count == 0 {
         return 0.0;
     }
-    let divisor = u64::from(count);
-    let mut quotient = [0_u32; LIMBS + 1];
+    // Division by a power of two only makes the unit smaller.
+    let (divisor, finer) =
+        if count.is_power_of_two() { (1, count.trailing_zeros()) } else { (u64::from(count), 0) };
+    let mut quotient = digits;
     let mut remainder = 0_u64;
-    for place in (0..=top).rev() {
-        let dividend = remainder << RADIX | u64::from(digits[place]);
-        // The remainder is below the divisor, so that a digit of the quotient has 32 bits.
-        quotient[place] = (dividend / divisor) as u32;
-        remainder = dividend % divisor;
+    if divisor > 1 {
+        for digit in quotient[..=top].iter_mut().rev() {
+            let dividend = remainder << RADIX | u64::from(*digit);
+            // The remainder is below the divisor, so that a digit of the quotient has 32 bits.
+            *digit = (dividend / divisor) as u32;
+            remainder = dividend % divisor;
+        }
     }
-    // The spacing of f32 is never below the unit: what the remainder stands for only breaks ties.
     let top = quotient.iter().rposition(|&digit| digit != 0).unwrap_or(0);
     let length = RADIX * top as u32 + (RADIX - quotient[top].leading_zeros());
-    // With the 24 bits of a significand at least, or all of a subnormal number.
-    let dropped = length.saturating_sub(24);
+    // What is left are the 24 bits of a significand, or fewer in a number that is subnormal: none is finer than 2⁻¹⁴⁹. The remainder is
+    // finer still and only breaks ties.
+    let dropped = length.saturating_sub(24).max(finer);
     // The bits from a place on, 32 of them at least.
     let from = |place: u32| {
         let digit = (place / RADIX) as usize;
@@ -194,18 +198,14 @@ fn rounded(digits: [u32; LIMBS + 1], count: u32) -> f32 {
             || quotient[..digit].iter().any(|&digit| digit != 0);
         (from(place) & 1 == 1, below || remainder != 0)
     };
-    // Rounding up carries into the exponent as it has to: the encoding of floats is consecutive.
+    // The leading bit of a significand counts as one more exponent, and rounding up carries into the exponent as it has to: the encoding of
+    // floats is consecutive.
     let up = u32::from(half && (beyond || kept & 1 == 1));
-    if length <= 23 {
-        return f32::from_bits(kept + up);
+    let exponent = dropped - finer;
+    if exponent > 253 {
+        return f32::INFINITY;
     }
-    // The leading bit of the significand counts as one more exponent.
-    let bits = (dropped << 23) + kept + up;
-    if bits >= f32::INFINITY.to_bits() || dropped > 253 {
-        f32::INFINITY
-    } else {
-        f32::from_bits(bits)
-    }
+    f32::from_bits(((exponent << 23) + kept + up).min(f32::INFINITY.to_bits()))
 }
 
 #[cfg(test)]
@@ -257,7 +257,7 @@ mod tests {
                 let terms: Vec<f32> = terms(count, lowest, span).collect();
                 let (sum, exact) = (sum(terms.clone()), reference(terms.clone()));
                 assert!(is_nearest(sum.total(), exact, 1), "{lowest} {span} {count}");
-                for divisor in [1, 2, 3, 5, 1000, u32::MAX] {
+                for divisor in [1, 2, 3, 4, 5, 32, 1000, 1024, 1 << 31, u32::MAX] {
                     let mean = sum.divided_by(divisor);
                     assert!(
                         is_nearest(mean, exact, i128::from(divisor)),
