@@ -22,7 +22,8 @@ const CARRY_AFTER: u32 = 1 << 30;
 /// [`add`](Self::add) says so.
 ///
 /// # Cost
-/// About a nanosecond per term: carries between limbs are deferred for 2³⁰ terms. 88 bytes.
+/// That of a [compensated sum](crate::CompensatedSum), a few nanoseconds per term: carries between limbs are deferred for 2³⁰ terms.
+/// 88 bytes.
 ///
 /// # Source
 /// Kulisch, "Computer Arithmetic and Validity", 2nd edition, 2013, section 8 (complete arithmetic); with deferred carries as in

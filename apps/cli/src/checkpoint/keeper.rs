@@ -137,6 +137,60 @@ impl Keeper {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use etendue_renderer::Accumulation;
+    use etendue_scene::film::Crop;
+
+    fn nothing() -> State {
+        let crop = Crop { offset: [0, 0], size: [20, 3] };
+        State::Plain(Accumulation::new(crop, 0..4))
+    }
+
+    fn target(folder: &tempfile::TempDir) -> Target {
+        Target { path: folder.path().join("a.checkpoint"), interval: Duration::from_millis(1) }
+    }
+
+    #[test]
+    fn checkpoints_are_written_while_the_work_goes_on() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let target = target(&folder);
+        let (mut keeper, stored) = Keeper::open(&target).expect("writable");
+        assert_eq!(stored, None);
+        // The work ends when it sees the second checkpoint, or the test does not.
+        let previous = folder.path().join("a.checkpoint.previous");
+        let (outcome, saved) = keeper.keep(&Header::default(), &nothing, || {
+            while !previous.exists() {
+                thread::yield_now();
+            }
+        });
+        assert!(outcome.is_ok() && saved.is_ok());
+        drop(keeper);
+        let (_, stored) = Keeper::open(&target).expect("writable");
+        let stored = stored.expect("a checkpoint");
+        assert_eq!(stored.state, nothing());
+        assert!(stored.header.seconds > 0.0);
+    }
+
+    #[test]
+    fn work_that_panics_is_kept() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let target = Target { interval: Duration::from_secs(1000), ..target(&folder) };
+        let (mut keeper, _) = Keeper::open(&target).expect("writable");
+        let (outcome, saved) =
+            keeper.keep(&Header::default(), &nothing, || panic!("a panic that is meant"));
+        assert!(outcome.is_err() && saved.is_ok());
+        assert!(Keeper::read(&target.path).is_ok_and(|stored| stored.is_some()));
+    }
+
+    #[test]
+    fn a_checkpoint_that_another_one_writes_is_refused() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let target = target(&folder);
+        let first = Keeper::open(&target).expect("writable");
+        let second = Keeper::open(&target).expect_err("locked");
+        assert!(second.to_string().contains("another render"), "{second}");
+        drop(first);
+        assert!(Keeper::open(&target).is_ok());
+    }
 
     #[test]
     fn an_interval_is_a_time_after_the_last_colon() {
