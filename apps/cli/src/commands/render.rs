@@ -239,14 +239,15 @@ fn render(arguments: &Arguments, recipe: &Recipe) -> Result<Exit, Failure> {
     let header = storage.as_ref().map(|storage| storage.header.clone());
     let start = Instant::now();
     let mut drawing = draw(&task, &scene, &interrupt, storage)?;
-    let render_seconds = start.elapsed().as_secs_f64();
+    // Samples and rays are those of all processes that have worked on the picture, and so is the time.
     let seconds_before = header.as_ref().map_or(0.0, |header| header.seconds);
+    let render_seconds = seconds_before + start.elapsed().as_secs_f64();
     let (trouble, panic) = (drawing.trouble.take(), drawing.panic.take());
     let part = drawing.sums.take().filter(|_| arguments.shard.is_some());
     if let Some(sums) = &part {
         drawing.layers = of_part(sums);
     }
-    let report = Report { render_seconds, seconds_before, build_seconds, drawing: &drawing };
+    let report = Report { render_seconds, build_seconds, drawing: &drawing };
     report.warn_of_bad_samples(scene.sampling.seed);
 
     let encoding = Encoding { precision: arguments.precision, exposure: arguments.exposure };

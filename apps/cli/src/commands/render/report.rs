@@ -12,8 +12,6 @@ use crate::output::{Metadata, Output};
 
 pub(super) struct Report<'a> {
     pub(super) render_seconds: f64,
-    /// Seconds of rendering before this process.
-    pub(super) seconds_before: f64,
     pub(super) build_seconds: f64,
     pub(super) drawing: &'a Drawing,
 }
@@ -57,7 +55,7 @@ impl Report<'_> {
             },
             samples: self.drawing.statistics.samples,
             seed: sampling.seed,
-            seconds: self.seconds_before + self.render_seconds,
+            seconds: self.render_seconds,
             non_finite: self.non_finite(),
             configuration: self.drawing.configuration.name().to_owned(),
             error: self.error(),

@@ -150,6 +150,9 @@ pub(crate) fn part(path: &Path) -> Result<Stored, Failure> {
     Stored::from_bytes(&bytes).map_err(|complaint| fail(&complaint))
 }
 
+/// Most pixels of a part of a render: of 128 bytes each, twice what they usually take, its attribute has the 2 GiB that it may have.
+const MOST_OF_PART: u64 = 1 << 24;
+
 /// The state of a render of which nothing has been drawn.
 fn nothing(shard: Option<Shard>, scene: &Scene, task: &Task) -> Result<State, Failure> {
     let samples_per_pixel = scene.sampling.samples_per_pixel;
@@ -161,6 +164,16 @@ fn nothing(shard: Option<Shard>, scene: &Scene, task: &Task) -> Result<State, Fa
                     "--shard {shard} has none of the {samples_per_pixel} samples per pixel; \
                      divide them into {samples_per_pixel} parts at most"
                 )));
+            }
+            let pixels: u64 = scene.film.crop.size.iter().copied().map(u64::from).product();
+            if let Some(shard) = shard.filter(|_| pixels > MOST_OF_PART) {
+                return Err(Failure::new(
+                    Exit::Resource,
+                    format!(
+                        "--shard {shard} of {pixels} pixels does not fit into a picture, which has room for the sums of \
+                         {MOST_OF_PART}; render crops"
+                    ),
+                ));
             }
             Ok(State::Plain(Accumulation::new(scene.film.crop, samples)))
         }
