@@ -62,7 +62,7 @@ impl Keeper {
                 Some(stored)
             }
             Found::Damage(complaint) => {
-                let help = "name another file, or remove this one to begin anew";
+                let help = "name another file, or remove a damaged checkpoint and its .previous to begin anew";
                 return Err(damaged(&format!("{complaint}\n  help: {help}")));
             }
         };
