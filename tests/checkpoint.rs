@@ -114,16 +114,14 @@ fn the_newest_complete_checkpoint_is_used_and_a_damaged_one_named() {
         folder.write("a.checkpoint", damage);
         let outcome = succeed(&folder, &["resume", "a.checkpoint", "--spp", "5", "--quiet"]);
         let warnings = outcome.warnings();
-        assert!(
-            warnings.iter().any(|w| w.contains(says) && w.contains("a.checkpoint")),
-            "{warnings:?}"
-        );
+        assert_eq!(warnings.len(), 1, "{warnings:?}");
+        assert!(warnings[0].contains(says) && warnings[0].contains("a.checkpoint"), "{warnings:?}");
         let expected = begun("5");
         assert_eq!(picture(&folder, "a.pfm"), picture(&expected, "a.pfm"));
         for name in ["a.checkpoint", "a.checkpoint.previous"] {
             folder.write(name, damage);
         }
-        refuse(&folder, &["resume", "a.checkpoint"], 4, &["a.checkpoint", says, "remove it"]);
+        refuse(&folder, &["resume", "a.checkpoint"], 4, &["a.checkpoint", says]);
     }
     folder.write("a.xml", scene(""));
     refuse(&folder, &["resume", "a.xml"], 4, &["a.xml", "no checkpoint"]);

@@ -53,27 +53,28 @@ impl Keeper {
         let lock = Lock::of(&target.path)?;
         let mut generations = Generations::new(Disk, &target.path);
         generations.clean();
-        let stored = Self::newest(&mut generations)?;
+        let stored = match generations.load(Stored::from_bytes) {
+            Found::Nothing => None,
+            Found::Content(stored, complaint) => {
+                if let Some(complaint) = complaint {
+                    eprintln!("etendue: warning: {complaint}; the checkpoint before it is used");
+                }
+                Some(stored)
+            }
+            Found::Damage(complaint) => {
+                let help = "name another file, or remove a damaged checkpoint and its .previous to begin anew";
+                return Err(damaged(&format!("{complaint}\n  help: {help}")));
+            }
+        };
         Ok((Self { generations, interval: target.interval, _lock: lock }, stored))
     }
 
     /// The newest complete checkpoint under a name, if there is one.
     pub(crate) fn read(path: &Path) -> Result<Option<Stored>, Failure> {
-        Self::newest(&mut Generations::new(Disk, path))
-    }
-
-    fn newest(generations: &mut Generations<Disk>) -> Result<Option<Stored>, Failure> {
-        match generations.load(Stored::from_bytes) {
+        match Generations::new(Disk, path).load(Stored::from_bytes) {
             Found::Nothing => Ok(None),
-            Found::Content(stored, None) => Ok(Some(stored)),
-            Found::Content(stored, Some(complaint)) => {
-                eprintln!("etendue: warning: {complaint}; the checkpoint before it is used");
-                Ok(Some(stored))
-            }
-            Found::Damage(complaint) => Err(Failure::new(
-                Exit::InputOutput,
-                format!("{complaint}\n  help: remove it to begin anew"),
-            )),
+            Found::Content(stored, _) => Ok(Some(stored)),
+            Found::Damage(complaint) => Err(damaged(&complaint)),
         }
     }
 
@@ -132,6 +133,11 @@ impl Keeper {
             .map_err(|error| Failure::new(Exit::Internal, format!("checkpoint: {error}")))?;
         self.generations.save(&bytes).map_err(|error| Failure::write(self.path(), error))
     }
+}
+
+/// That there is no complete checkpoint where there should be one.
+fn damaged(complaint: &str) -> Failure {
+    Failure::new(Exit::InputOutput, complaint)
 }
 
 #[cfg(test)]

@@ -88,9 +88,10 @@ impl Storage {
     fn continued(self, stored: Stored, path: &Path, kind: Kind) -> Result<Self, Failure> {
         let refuse = |difference: &str| {
             let (what, help) = match kind {
-                Kind::Checkpoint => {
-                    ("checkpoint", "name another checkpoint, or remove this one to begin anew")
-                }
+                Kind::Checkpoint => (
+                    "checkpoint",
+                    "name another checkpoint, or remove this one and its .previous to begin anew",
+                ),
                 Kind::Part => ("part", "name another picture, or remove this one to begin anew"),
             };
             let path = path.display();
