@@ -59,7 +59,9 @@ pub(super) fn cube<'a>(
 /// The file of `filename`.
 pub(super) fn path(reader: &mut PluginReader<'_>) -> Result<PathBuf, SceneError> {
     match reader.string("filename")? {
-        Some(name) => Ok(reader.node().search.resolve(name)),
+        Some(name) => {
+            reader.node().search.resolve(name).map_err(|error| asset_error(error, reader))
+        }
         None => Err(reader.error("filename", format!("{} has no “filename”", reader.title()))),
     }
 }
@@ -85,7 +87,7 @@ fn mesh<'a>(
     file: Result<MeshFile, SceneError>,
 ) -> Result<Item, SceneError> {
     let file = file.map_err(|error| asset_error(error, reader))?;
-    context.files.push(path);
+    context.read(&path, file.mesh.bytes()).map_err(|error| asset_error(error, reader))?;
     context.warnings.extend(file.warnings);
     let (to_world, motion) = placed(reader, context)?;
     let is_flat = reader.boolean("face_normals", file.face_normals)?;
