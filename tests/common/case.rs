@@ -74,7 +74,7 @@ impl Case {
         Self { arguments: RENDER_PLY.to_vec(), ..case }
     }
 
-    pub(crate) fn file(mut self, name: &'static str, content: impl Into<Vec<u8>>) -> Self {
+    pub(crate) fn file(self, name: &'static str, content: impl Into<Vec<u8>>) -> Self {
         self.with_content(name, Content::File(content.into()))
     }
 

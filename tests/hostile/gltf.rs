@@ -153,7 +153,7 @@ pub(super) fn cases() -> Vec<Case> {
         triangle(
             "sound triangle",
             0,
-            &["camera"],
+            &[],
             r#"{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}"#,
         ),
         triangle(
@@ -195,7 +195,7 @@ pub(super) fn cases() -> Vec<Case> {
         triangle(
             "positions that are matrices",
             3,
-            &["POSITION"],
+            &["accessors[0]", "elements of 16 numbers"],
             r#"{"componentType":5126,"count":3,"type":"MAT4"}"#,
         ),
         triangle(

@@ -124,7 +124,7 @@ pub(super) fn cases() -> Vec<Case> {
         ),
         refused(
             "material as a texture",
-            &["scene.xml:6:"],
+            &["scene.xml:3:1", "the bsdf “diffuse” is not supported"],
             &format!(
                 "<bsdf type=\"diffuse\" id=\"a\"/>\n{}",
                 ball("<bsdf type=\"diffuse\"><ref name=\"reflectance\" id=\"a\"/></bsdf>")
@@ -154,7 +154,7 @@ pub(super) fn cases() -> Vec<Case> {
         Case::scene(
             "two integrators",
             3,
-            &["cannot use a integrator"],
+            &["scene.xml:3:26", "more than one integrator"],
             "<integrator type=\"path\"/><integrator type=\"path\"/>",
         ),
         Case::new("included file is no scene", 3, &["b.xml:1:1"])
@@ -172,7 +172,7 @@ pub(super) fn cases() -> Vec<Case> {
             "<path value=\"scene.xml\"/>",
         ),
         Case::scene("65 folders", 5, &["more than 64 folders"], &"<path value=\".\"/>".repeat(65)),
-        Case::scene("nothing but a light", 0, &[], LIGHT),
+        Case::scene("nothing but a light", 0, &["there are no shapes"], LIGHT),
     ];
     let nested = |count: usize| {
         let begin = "<bsdf type=\"twosided\">".repeat(count);

@@ -165,6 +165,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     let render_seconds = start.elapsed().as_secs_f64();
     let report = Report { render_seconds, build_seconds, drawing: &drawing };
     report.warn_of_bad_samples(scene.sampling.seed);
+    report.warn_of_overflow();
 
     let encoding = Encoding { precision: arguments.precision, exposure: arguments.exposure };
     let metadata = report.metadata(arguments, &scene);
@@ -177,7 +178,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     }
     Ok(match interrupt.exit() {
         Some(exit) => exit,
-        None if arguments.strict && report.non_finite() > 0 => Exit::Unhealthy,
+        None if arguments.strict && (report.non_finite() > 0 || report.overflowed() > 0) => {
+            Exit::Unhealthy
+        }
         None => Exit::Done,
     })
 }
