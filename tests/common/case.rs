@@ -160,6 +160,10 @@ pub(crate) fn messages(outcome: &Outcome, exit: i32, says: &[&str]) -> Option<St
     if outcome.stderr.contains("panicked") {
         return Some("it panics".to_owned());
     }
+    let acts = |c: char| c.is_control() && c != '\n';
+    if outcome.stderr.contains(acts) || outcome.stdout.contains(acts) {
+        return Some("it controls the terminal".to_owned());
+    }
     if outcome.stderr.len() > MOST_TEXT {
         return Some(format!("{} bytes of messages", outcome.stderr.len()));
     }

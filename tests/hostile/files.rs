@@ -87,7 +87,7 @@ pub(super) fn cases() -> Vec<Case> {
             .with_content("a.obj", Content::Folder),
         material("folder as a texture", 4, &["a.png", "not a regular file"], &textured("a.png"))
             .with_content("a.png", Content::Folder),
-        Case::scene("no name", 4, &["not a regular file"], &mesh("")),
+        Case::scene("no name", 3, &["a file name is empty", "scene.xml:3:"], &mesh("")),
         Case::scene("link to itself", 4, &["a.obj", "cannot read"], &mesh("a.obj"))
             .with_content("a.obj", Content::Link("a.obj")),
         Case::scene("link to a device", 4, &["a.obj", "not a regular file"], &mesh("a.obj"))

@@ -210,6 +210,9 @@ pub(super) fn cases() -> Vec<Case> {
             &["elements replace 3"],
             r#"{"componentType":5126,"count":3,"type":"VEC3","sparse":{"count":4,"indices":{"bufferView":0,"componentType":5125},"values":{"bufferView":0}}}"#,
         ),
+        Case::new("names with escape codes in the list of effects", 0, &[])
+            .file("a.gltf", r#"{"asset":{"version":"2.0"},"nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":{"POSITION":0},"material":0}]}],"materials":[{"name":"\u001b[2J"}],"accessors":[{"componentType":5126,"count":3,"type":"VEC3"}]}"#)
+            .command(&["effects", "a.gltf"]),
         document(
             "name with escape codes",
             3,

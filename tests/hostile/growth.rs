@@ -15,7 +15,9 @@ fn doubling(first: &str, line: impl Fn(usize) -> String) -> String {
 
 pub(super) fn cases() -> Vec<Case> {
     let refused = |what, says, body: &str| Case::scene(what, 5, says, body);
-    let rendered = |what, body: &str| Case::scene(what, 0, &[], body);
+    let rendered = |what, body: &str| {
+        Case::scene(what, 0, &[], &format!("{LIGHT}<shape type=\"sphere\"/>{body}"))
+    };
     let defined = |i: usize| {
         let value = format!("$a{}$a{}", i - 1, i - 1);
         format!("<default name=\"a{i}\" value=\"{value}\"/>")
@@ -79,11 +81,11 @@ pub(super) fn cases() -> Vec<Case> {
             &format!("<integrator type=\"volpath\"/>{phases}{}", ball(in_medium)),
         ),
         rendered("checkerboards that double", &format!("{checkers}{}", ball(textured))),
-        rendered("5·10⁴ definitions, each used", &format!("{names}\n{uses}\n{LIGHT}")),
-        rendered("10⁵ plugins in one line", &format!("{LIGHT}{}", "<bsdf type=\"diffuse\"/>".repeat(100_000))),
-        rendered("10⁵ CDATA sections", &format!("{LIGHT}<bsdf type=\"diffuse\">{}</bsdf>", "<![CDATA[a]]>b".repeat(100_000))),
-        rendered("a megabyte of entities", &format!("{LIGHT}<bsdf type=\"diffuse\">{}</bsdf>", "&amp;".repeat(200_000))),
-        rendered("8 MB of comments", &format!("{LIGHT}{}", "<!-- x -->".repeat(800_000))),
+        rendered("5·10⁴ definitions, each used", &format!("{names}\n{uses}")),
+        rendered("10⁵ plugins in one line", &"<bsdf type=\"diffuse\"/>".repeat(100_000)),
+        rendered("10⁵ CDATA sections", &format!("<bsdf type=\"diffuse\">{}</bsdf>", "<![CDATA[a]]>b".repeat(100_000))),
+        rendered("a megabyte of entities", &format!("<bsdf type=\"diffuse\">{}</bsdf>", "&amp;".repeat(200_000))),
+        rendered("8 MB of comments", &"<!-- x -->".repeat(800_000)),
         Case::scene(
             "10⁵ parameters of one plugin",
             3,
@@ -106,11 +108,11 @@ pub(super) fn cases() -> Vec<Case> {
         .with(&["--lenient"]),
         rendered(
             "10⁵ references to one material",
-            &format!("<bsdf type=\"diffuse\" id=\"a\"/>{LIGHT}{}", "<ref id=\"a\"/>".repeat(100_000)),
+            &format!("<bsdf type=\"diffuse\" id=\"a\"/>{}", "<ref id=\"a\"/>".repeat(100_000)),
         ),
         rendered(
             "5·10⁷ triangles by instancing",
-            &format!("{LIGHT}{group}{instances}"),
+            &format!("{group}{instances}"),
         )
         .file("mesh.obj", format!("{grid}{faces}\n")),
         refused(
@@ -126,8 +128,8 @@ pub(super) fn cases() -> Vec<Case> {
         )
         .file("b.xml", format!("<scene version=\"3.0.0\"><!--{}--></scene>", " ".repeat(1 << 20))),
         Case::new("spectrum of 10⁵ lines", 0, &[])
-            .file("scene.xml", scene("<emitter type=\"constant\"><spectrum name=\"radiance\" filename=\"a.spd\"/></emitter>"))
-            .file("a.spd", lines(100_000, |i| format!("{} 1", 300.0 + 1e-3 * i as f64))),
+            .file("scene.xml", scene("<emitter type=\"constant\"><spectrum name=\"radiance\" filename=\"a.spd\"/></emitter><shape type=\"sphere\"/>"))
+            .file("a.spd", lines(100_000, |i| format!("{} 1", 400.0 + 3e-3 * i as f64))),
         Case::scene(
             "10⁵ keyframes",
             0,

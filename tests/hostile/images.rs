@@ -87,8 +87,8 @@ pub(super) fn cases() -> Vec<Case> {
         of_png("PNG 0 wide", 3, named, file([0, 4], [8, 0, 0], &[chunk(b"IDAT", &zeros(4))])),
         of_png(
             "PNG 2³² − 1 wide",
-            3,
-            named,
+            5,
+            &["a.png", "limit exceeded"],
             file([u32::MAX, 1], [8, 0, 0], &[chunk(b"IDAT", &zeros(4))]),
         ),
         of_png(

@@ -97,7 +97,12 @@ fn mtl() -> Vec<Case> {
         with("colour of NaN", 3, &["mesh.mtl:2", "nan"], "newmtl a\nKd nan 0 0\n"),
         with("colour of −1", 0, &[], "newmtl a\nKd -1 -1 -1\n"),
         with("colour of 10³⁰", 0, &[], "newmtl a\nKd 1e30 1e30 1e30\n"),
-        with("emission of 10³⁸", 0, &[], "newmtl a\nKe 1e38 1e38 1e38\n"),
+        with(
+            "emission of 10³⁸",
+            3,
+            &["mesh.obj", "light 0 emits more than 2¹⁰⁰ W"],
+            "newmtl a\nKe 1e38 1e38 1e38\n",
+        ),
         with(
             "index of refraction 0",
             0,

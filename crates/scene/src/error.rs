@@ -148,7 +148,7 @@ const ENDS: usize = 450;
 
 /// A message, which quotes what files hold, as text for a terminal: on one line, without codes that would do something there, of
 /// bounded length.
-fn printable(text: String) -> String {
+pub(crate) fn printable(text: String) -> String {
     // Line breaks, escape codes, and marks that turn the direction of writing.
     let acts =
         |c: char| c.is_control() || matches!(c, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');

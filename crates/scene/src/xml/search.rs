@@ -3,8 +3,8 @@
 use alloc::sync::Arc;
 use std::path::{Path, PathBuf};
 
-use crate::SceneError;
 use crate::load::Sandbox;
+use crate::{Location, SceneError};
 
 /// Folders in the order in which they are searched.
 ///
@@ -48,8 +48,11 @@ impl SearchPath {
     /// first, so that an error can name it. Backslashes count as slashes when nothing has them.
     ///
     /// # Errors
-    /// A file or folder outside of the sandbox, if there is one.
+    /// No name; a file or folder outside of the sandbox, if there is one.
     pub fn resolve(&self, name: &str) -> Result<PathBuf, SceneError> {
+        if name.is_empty() {
+            return Err(SceneError::scene(Location::default(), "a file name is empty"));
+        }
         let find = |name: &str| self.folders.iter().map(|f| f.join(name)).find(|p| p.exists());
         let found = find(name)
             .or_else(|| name.contains('\\').then(|| find(&name.replace('\\', "/"))).flatten())
