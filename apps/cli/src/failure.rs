@@ -56,6 +56,11 @@ impl Failure {
         Self::new(Exit::Usage, message)
     }
 
+    /// The same with more to say.
+    pub(crate) fn adding(self, more: &str) -> Self {
+        Self { message: self.message + more, ..self }
+    }
+
     /// A file that cannot be written.
     pub(crate) fn write(path: &Path, error: impl fmt::Display) -> Self {
         Self::new(Exit::InputOutput, format!("{}: cannot write: {error}", path.display()))

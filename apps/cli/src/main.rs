@@ -13,6 +13,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
+mod checkpoint;
 mod clock;
 mod commands;
 mod excerpt;
@@ -23,7 +24,7 @@ mod memory;
 mod output;
 mod progress;
 
-use commands::{accuracy, brdf, compare, convert, effects, info, render};
+use commands::{accuracy, brdf, compare, convert, effects, info, merge, render, resume};
 use failure::{Exit, Failure};
 
 /// Renders Mitsuba scenes, glTF models and bare meshes, exactly and fast.
@@ -36,7 +37,9 @@ struct Arguments {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    Render(render::Arguments),
+    Render(Box<render::Arguments>),
+    Resume(resume::Arguments),
+    Merge(merge::Arguments),
     Effects(effects::Arguments),
     Info(info::Arguments),
     Convert(convert::Arguments),
@@ -53,6 +56,8 @@ fn main() -> ExitCode {
     let arguments = Arguments::parse();
     let outcome = panic::catch_unwind(|| match &arguments.command {
         Command::Render(arguments) => render::run(arguments),
+        Command::Resume(arguments) => resume::run(arguments),
+        Command::Merge(arguments) => merge::run(arguments),
         Command::Effects(arguments) => effects::run(arguments),
         Command::Info(arguments) => info::run(arguments),
         Command::Convert(arguments) => convert::run(arguments),

@@ -24,6 +24,7 @@ compile_error!("etendue-math needs a float backend: enable the feature `std` or 
 
 mod backend;
 mod eighth_turn;
+mod exact_sum;
 mod frame;
 mod hash;
 pub mod quadrature;
@@ -35,6 +36,7 @@ mod spectrum;
 mod sum;
 mod vector;
 
+pub use exact_sum::ExactSum;
 pub use frame::Frame;
 pub use glam;
 pub use hash::{hash_u32, hash_u64, mix_u64};

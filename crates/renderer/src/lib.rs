@@ -51,6 +51,7 @@
 //! | [`LightSampler`] | which light is sampled for a point: a light tree |
 //! | [`Strategy`] | how light is found: both ways, or one of them |
 //! | [`Renderer::render_with_reuse`] | what neighbouring paths lend each other, how many samples a pixel is worth |
+//! | [`Accumulation`] | what a render knows that is stopped, stored, continued, divided and joined |
 //! | [`progressive`] | how many samples a pixel gets, when a picture is accurate enough |
 //! | [`Features`] | what pixels show, for compositing and denoising |
 //! | [`image_metrics`] | how far two pictures are apart |
@@ -59,6 +60,10 @@
 //! No bidirectional methods, no denoising, no tone mapping, no files: pictures leave as linear
 //! radiance.
 
+extern crate alloc;
+
+mod accumulation;
+mod codec;
 mod configuration;
 mod features;
 mod film;
@@ -75,6 +80,8 @@ mod settings;
 mod statistics;
 mod tile;
 
+pub use accumulation::Accumulation;
+pub use codec::StateError;
 pub use configuration::Configuration;
 pub use features::Features;
 pub use film::{FilmSample, FilterSampler, Image, PixelFilter, PixelSum};

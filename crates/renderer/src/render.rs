@@ -1,6 +1,7 @@
 //! Rendering a whole picture on all processors.
 
 use core::marker::PhantomData;
+use core::ops::Range;
 use core::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
@@ -9,8 +10,9 @@ use etendue_sampling::{Decision, Dimension, Sampler};
 use etendue_scene::geometry::{Ray, Rays, Task};
 use etendue_scene::{Color, Scene};
 
+use crate::accumulation::{PackedTile, PixelMoments};
 use crate::configuration::{Configuration, Configured};
-use crate::film::{FilterSampler, Image, PixelFilter, PixelSum};
+use crate::film::{FilterSampler, Image, PixelFilter};
 use crate::light_sampler::{LightSampler, PointLights};
 use crate::path::{Carried, PathTracer, Prepared, Transport};
 use crate::renderer_error::RendererError;
@@ -21,7 +23,8 @@ use crate::tile::Tile;
 /// Renders one scene with one set of settings.
 ///
 /// Every number of a sample is addressed by (seed, pixel, sample, decision), and every pixel sums
-/// its own samples in order: the picture has the same bits for any number of threads.
+/// its own samples exactly: the picture has the same bits for any number of threads, and for any division of the samples
+/// ([`accumulate`](Self::accumulate)).
 pub struct Renderer<'a> {
     pub(crate) scene: &'a Scene,
     pub(crate) settings: RenderSettings,
@@ -117,9 +120,31 @@ impl<'a> Renderer<'a> {
     /// Renders the film's crop.
     ///
     /// * `report` is called after every tile, by the thread that finished it.
-    /// * Once `cancel` is true, tiles under way are finished and no further ones begun.
+    /// * Once `cancel` is true, pixels under way are finished and no further ones begun.
     pub fn render(&self, report: &(dyn Fn(Progress) + Sync), cancel: &AtomicBool) -> Rendering {
-        self.render_tiles(&Tile::cover(&self.scene.film.crop), report, cancel)
+        let rendering = Mutex::new(self.nothing_rendered());
+        self.render_onto(&rendering, report, cancel);
+        rendering.into_inner().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// A black picture of the film's crop: what a render begins with.
+    pub fn nothing_rendered(&self) -> Rendering {
+        let crop = &self.scene.film.crop;
+        Rendering {
+            image: Image::black(crop.size),
+            statistics: Statistics::default(),
+            progress: Progress { finished: 0, total: Tile::count(crop) as usize },
+        }
+    }
+
+    /// Renders as [`render`](Self::render) does, onto a picture that is there, with what was finished, also after a panic.
+    pub fn render_onto(
+        &self,
+        rendering: &Mutex<Rendering>,
+        report: &(dyn Fn(Progress) + Sync),
+        cancel: &AtomicBool,
+    ) {
+        self.render_tiles(&Tile::cover(&self.scene.film.crop), rendering, report, cancel);
     }
 
     /// The radiance of one sample, weighted by the filter: what the picture's pixel is the mean of.
@@ -132,27 +157,26 @@ impl<'a> Renderer<'a> {
     pub(crate) fn render_tiles(
         &self,
         tiles: &[Tile],
+        rendering: &Mutex<Rendering>,
         report: &(dyn Fn(Progress) + Sync),
         cancel: &AtomicBool,
-    ) -> Rendering {
-        self.configured(RenderTiles { renderer: self, tiles, report, cancel })
+    ) {
+        self.configured(RenderTiles { renderer: self, tiles, rendering, report, cancel });
     }
 
     fn render_with<S: Sampler, T: Transport>(
         &self,
         tiles: &[Tile],
+        rendering: &Mutex<Rendering>,
         report: &(dyn Fn(Progress) + Sync),
         cancel: &AtomicBool,
-    ) -> Rendering {
+    ) {
         let crop = &self.scene.film.crop;
-        let rendering = Mutex::new(Rendering {
-            image: Image::black(crop.size),
-            statistics: Statistics::default(),
-            progress: Progress { finished: 0, total: tiles.len() },
-        });
         self.share_out(tiles, &|| cancel.load(Ordering::Relaxed), |&tile| {
-            let task = RenderTile::<S, T> { renderer: self, tile, configuration: PhantomData };
-            let (pixels, statistics) = self.scene.geometry.run(task);
+            let samples = 0..self.settings.samples_per_pixel;
+            let keep = Keep::Means(Vec::new());
+            let drawn = self.render_tile::<S, T>(tile, samples, keep, cancel);
+            let Keep::Means(pixels) = drawn.kept else { return };
             // Merging is the same in any order. A poisoned lock means that `report` panicked
             // on another thread, whose tile is complete.
             let mut shared = rendering.lock().unwrap_or_else(PoisonError::into_inner);
@@ -160,16 +184,54 @@ impl<'a> Renderer<'a> {
                 let [x, y] = [0, 1].map(|axis| pixel[axis] - crop.offset[axis]);
                 shared.image.set([x, y], color);
             }
-            shared.statistics.merge(&statistics);
-            shared.progress.finished += 1;
+            shared.statistics.merge(&drawn.statistics);
+            shared.progress.finished += usize::from(drawn.whole);
             let progress = shared.progress;
             drop(shared);
             report(progress);
         });
-        rendering.into_inner().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// A tile with further samples; `None` if it was cancelled.
+    ///
+    /// * `samples`: follow those that `before` has.
+    pub(crate) fn extend_tile<S: Sampler, T: Transport>(
+        &self,
+        tile: Tile,
+        samples: Range<u32>,
+        before: &PackedTile,
+        cancel: &AtomicBool,
+    ) -> Option<PackedTile> {
+        let pixels = tile.pixels().zip(before.unpack()).map(|(_, pixel)| pixel).collect();
+        let drawn = before.drawn() + (samples.end - samples.start);
+        let after = self.render_tile::<S, T>(tile, samples, Keep::Moments(pixels), cancel);
+        let Keep::Moments(pixels) = after.kept else { return None };
+        let mut statistics = before.statistics().clone();
+        statistics.merge(&after.statistics);
+        after.whole.then(|| PackedTile::new(drawn, &pixels, statistics))
+    }
+
+    fn render_tile<S: Sampler, T: Transport>(
+        &self,
+        tile: Tile,
+        samples: Range<u32>,
+        keep: Keep,
+        cancel: &AtomicBool,
+    ) -> DrawnTile {
+        let task = RenderTile::<S, T> {
+            renderer: self,
+            tile,
+            samples,
+            keep,
+            cancel,
+            configuration: PhantomData,
+        };
+        self.scene.geometry.run(task)
     }
 
     /// Every thread takes the next piece of work until none is left or `cancelled` says so.
+    ///
+    /// A panic ends the work: pieces that others have begun are finished, and then it goes on in the caller.
     pub(crate) fn share_out<T: Sync>(
         &self,
         pieces: &[T],
@@ -177,8 +239,10 @@ impl<'a> Renderer<'a> {
         work: impl Fn(&T) + Sync,
     ) {
         let next = AtomicUsize::new(0);
+        let panicked = AtomicBool::new(false);
         self.pool.broadcast(|_| {
-            while !cancelled() {
+            let _alarm = Alarm(&panicked);
+            while !cancelled() && !panicked.load(Ordering::Relaxed) {
                 let Some(piece) = pieces.get(next.fetch_add(1, Ordering::Relaxed)) else { break };
                 work(piece);
             }
@@ -204,15 +268,22 @@ impl<'a> Renderer<'a> {
         &self,
         tracer: &PathTracer<'_, '_, R, T::Channels>,
         pixel: [u32; 2],
+        samples: Range<u32>,
+        moments: &mut PixelMoments,
+        squares: bool,
         statistics: &mut Statistics,
-    ) -> Color {
+    ) {
         let filter = self.filter.pixel(pixel);
-        let mut sum = PixelSum::default();
-        for sample in 0..self.settings.samples_per_pixel {
+        statistics.samples += u64::from(samples.end - samples.start);
+        for sample in samples {
             let points = S::at(self.settings.seed, pixel, u64::from(sample));
             let radiance =
                 self.path_sample::<S, T, R>(tracer, &filter, &points, &mut statistics.rays);
-            if !sum.add(radiance) {
+            if moments.add(radiance) {
+                if squares {
+                    moments.add_squares(radiance);
+                }
+            } else {
                 let [column, row] = pixel;
                 statistics.non_finite.record(SampleAddress {
                     row,
@@ -221,8 +292,6 @@ impl<'a> Renderer<'a> {
                 });
             }
         }
-        statistics.samples += u64::from(self.settings.samples_per_pixel);
-        sum.mean()
     }
 
     #[inline(always)]
@@ -286,36 +355,89 @@ impl Configured for OneSample<'_, '_> {
 struct RenderTiles<'r, 'a> {
     renderer: &'r Renderer<'a>,
     tiles: &'r [Tile],
+    rendering: &'r Mutex<Rendering>,
     report: &'r (dyn Fn(Progress) + Sync),
     cancel: &'r AtomicBool,
 }
 
 impl Configured for RenderTiles<'_, '_> {
-    type Output = Rendering;
+    type Output = ();
 
-    fn run<S: Sampler, T: Transport>(self) -> Rendering {
-        self.renderer.render_with::<S, T>(self.tiles, self.report, self.cancel)
+    fn run<S: Sampler, T: Transport>(self) {
+        let Self { renderer, tiles, rendering, report, cancel } = self;
+        renderer.render_with::<S, T>(tiles, rendering, report, cancel);
     }
+}
+
+/// Says that a thread panics.
+struct Alarm<'f>(&'f AtomicBool);
+
+impl Drop for Alarm<'_> {
+    fn drop(&mut self) {
+        if std::thread::panicking() {
+            self.0.store(true, Ordering::Relaxed);
+        }
+    }
+}
+
+/// What is kept of the pixels of a tile.
+enum Keep {
+    /// The means, of those that were reached.
+    Means(Vec<Color>),
+    /// All moments, to which samples are added.
+    Moments(Vec<PixelMoments>),
+}
+
+/// A tile after more samples.
+struct DrawnTile {
+    kept: Keep,
+    statistics: Statistics,
+    /// Whether every pixel was reached.
+    whole: bool,
 }
 
 /// The rendering of one tile.
 struct RenderTile<'r, 'a, S, T> {
     renderer: &'r Renderer<'a>,
     tile: Tile,
+    samples: Range<u32>,
+    keep: Keep,
+    cancel: &'r AtomicBool,
     configuration: PhantomData<(S, T)>,
 }
 
 impl<S: Sampler, T: Transport> Task for RenderTile<'_, '_, S, T> {
-    type Output = (Vec<Color>, Statistics);
+    type Output = DrawnTile;
 
     #[inline(always)]
-    fn run<R: Rays>(self, rays: R) -> (Vec<Color>, Statistics) {
-        let tracer = self.renderer.tracer::<T::Channels, R>(rays);
+    fn run<R: Rays>(self, rays: R) -> DrawnTile {
+        let Self { renderer, tile, samples, mut keep, cancel, .. } = self;
+        let tracer = renderer.tracer::<T::Channels, R>(rays);
         let mut statistics = Statistics::default();
-        let mut pixels = Vec::new();
-        for pixel in self.tile.pixels() {
-            pixels.push(self.renderer.render_pixel::<S, T, R>(&tracer, pixel, &mut statistics));
+        let squares = matches!(keep, Keep::Moments(_));
+        let mut whole = true;
+        for (place, pixel) in tile.pixels().enumerate() {
+            if cancel.load(Ordering::Relaxed) {
+                whole = false;
+                break;
+            }
+            let mut moments = match &keep {
+                Keep::Means(_) => PixelMoments::default(),
+                Keep::Moments(pixels) => pixels[place],
+            };
+            renderer.render_pixel::<S, T, R>(
+                &tracer,
+                pixel,
+                samples.clone(),
+                &mut moments,
+                squares,
+                &mut statistics,
+            );
+            match &mut keep {
+                Keep::Means(pixels) => pixels.push(moments.mean()),
+                Keep::Moments(pixels) => pixels[place] = moments,
+            }
         }
-        (pixels, statistics)
+        DrawnTile { kept: keep, statistics, whole }
     }
 }

@@ -49,7 +49,8 @@ pub enum Strategy {
     Mis,
     /// Scattered rays that hit a light by chance.
     BsdfOnly,
-    /// Light sampling.
+    /// Light sampling. Noisy where light comes from all around: what is no brighter than the mean is drawn rarely, because with
+    /// [`Mis`](Self::Mis) scattering finds it.
     LightOnly,
 }
 

@@ -1,5 +1,7 @@
 //! What a render did: samples, rays, and samples that were not numbers.
 
+use crate::codec::{Reader, StateError, Write as _};
+
 /// Counts of one tile, or of a whole render.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Statistics {
@@ -94,6 +96,47 @@ impl Statistics {
     }
 }
 
+/// How statistics are stored.
+impl Statistics {
+    /// Fewest bytes: without addresses.
+    pub(crate) const LEAST_BYTES: usize = 5 * 8 + 1;
+
+    pub(crate) fn write(&self, bytes: &mut Vec<u8>) {
+        let RayCounts { camera, shadow, indirect } = self.rays;
+        for count in [self.samples, camera, shadow, indirect, self.non_finite.count] {
+            bytes.u64(count);
+        }
+        bytes.u8(self.non_finite.first.len() as u8);
+        for address in &self.non_finite.first {
+            bytes.u32(address.row);
+            bytes.u32(address.column);
+            bytes.u64(address.sample);
+        }
+    }
+
+    pub(crate) fn read(reader: &mut Reader<'_>) -> Result<Self, StateError> {
+        let mut counts = [0; 5];
+        for count in &mut counts {
+            *count = reader.u64()?;
+            // Counts of many tiles are added.
+            if *count > u64::from(u32::MAX) << 16 {
+                return Err(StateError::new("a count is too large"));
+            }
+        }
+        let [samples, camera, shadow, indirect, count] = counts;
+        let kept = usize::from(reader.u8()?);
+        if kept as u64 != count.min(NonFiniteSamples::KEPT as u64) {
+            return Err(StateError::new("addresses of samples are missing"));
+        }
+        let mut non_finite = NonFiniteSamples { count, first: Vec::with_capacity(kept) };
+        for _ in 0..kept {
+            let (row, column, sample) = (reader.u32()?, reader.u32()?, reader.u64()?);
+            non_finite.keep(SampleAddress { row, column, sample });
+        }
+        Ok(Self { samples, rays: RayCounts { camera, shadow, indirect }, non_finite })
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -120,5 +163,19 @@ mod tests {
         let rows: Vec<u32> = forward.non_finite.first().iter().map(|a| a.row).collect();
         // Rows 7 and up occur in two parts.
         assert_eq!(rows, [0, 1, 2, 3, 4, 5, 6, 7, 7, 8, 8, 9, 9, 10, 10, 11]);
+    }
+
+    #[test]
+    fn statistics_come_back_and_a_count_without_its_addresses_is_refused() {
+        for rows in [0..0, 0..3, 0..40] {
+            let rays = RayCounts { camera: 7, shadow: 1 << 40, indirect: 3 };
+            let statistics = Statistics { rays, ..part(rows) };
+            let mut bytes = Vec::new();
+            statistics.write(&mut bytes);
+            assert_eq!(Statistics::read(&mut Reader::new(&bytes)).as_ref(), Ok(&statistics));
+            bytes[4 * 8] ^= 1;
+            let changed = Statistics::read(&mut Reader::new(&bytes));
+            assert!(changed.is_err() || statistics.non_finite.count > 16);
+        }
     }
 }

@@ -13,6 +13,11 @@ pub(crate) struct Tile {
 }
 
 impl Tile {
+    /// Number of tiles of a crop.
+    pub(crate) fn count(crop: &Crop) -> u64 {
+        crop.size.map(|pixels| u64::from(pixels.div_ceil(EDGE))).iter().product()
+    }
+
     /// The tiles of a crop along a Hilbert curve, so that consecutive tiles look at the same part of
     /// the scene.
     pub(crate) fn cover(crop: &Crop) -> Vec<Self> {
@@ -102,6 +107,7 @@ mod tests {
             let pixels: Vec<[u32; 2]> =
                 Tile::cover(&crop).into_iter().flat_map(Tile::pixels).collect();
             let distinct: HashSet<[u32; 2]> = pixels.iter().copied().collect();
+            assert_eq!(Tile::count(&crop), Tile::cover(&crop).len() as u64);
             assert_eq!(pixels.len(), (size[0] * size[1]) as usize);
             assert_eq!(distinct.len(), pixels.len());
             assert!(pixels.iter().all(|p| (0..2).all(|axis| {

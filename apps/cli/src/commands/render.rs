@@ -2,11 +2,15 @@
 
 mod draw;
 mod report;
+mod settings;
+mod storage;
 mod task;
 
-use std::path::PathBuf;
+use std::panic::resume_unwind;
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
+use clap::Parser;
 use etendue_renderer::progressive;
 use etendue_scene::film::Crop;
 use etendue_scene::{LoadOptions, SamplerKind};
@@ -14,13 +18,17 @@ use etendue_scene::{LoadOptions, SamplerKind};
 use super::scene_arguments::{SceneArguments, load};
 use super::selection::SelectionArguments;
 use super::values::{crop, duration, exposure, max_depth, relative_error, size};
+use crate::checkpoint::{Header, Recipe, Shard, State, Stored, Target, folder};
 use crate::failure::{Exit, Failure};
 use crate::interrupt::Interrupt;
-use crate::output::{Aov, Encoding, Output, Precision};
+use crate::output::{Aov, Encoding, Output, Precision, of_part};
 use crate::progress::Quiet;
 use draw::draw;
 use report::Report;
+use storage::Storage;
 use task::Task;
+
+pub(crate) use storage::part;
 
 /// Renders a scene to a picture.
 #[derive(Debug, clap::Args)]
@@ -50,6 +58,14 @@ pub(crate) struct Arguments {
     /// points unless --sampler says otherwise.
     #[arg(long, conflicts_with_all = ["error", "time", "allocation"])]
     reuse: bool,
+    /// Keep what has been drawn in this file, now and then (every 60s if not said otherwise) and at the end. The same command goes on with
+    /// it, and so does `etendue resume FILE`, to the same picture bit by bit.
+    #[arg(long, value_name = "FILE[:INTERVAL]", value_parser = Target::parse, conflicts_with = "reuse")]
+    checkpoint: Option<Target>,
+    /// Draw only the I-th of N equal parts of the samples, into an EXR picture for `etendue merge`. A part that is there is not drawn
+    /// again, an unfinished one is finished.
+    #[arg(long, value_name = "I/N", value_parser = Shard::parse, conflicts_with_all = ["reuse", "error", "time", "allocation", "aov"])]
+    shard: Option<Shard>,
     /// Further layers of an EXR picture, separated by commas.
     #[arg(long, value_name = "LAYERS", value_delimiter = ',')]
     aov: Vec<Aov>,
@@ -136,17 +152,70 @@ impl Arguments {
     }
 }
 
+/// The command line of a stored render.
+#[derive(Debug, clap::Parser)]
+#[command(no_binary_name = true)]
+struct StoredCommand {
+    #[command(flatten)]
+    arguments: Arguments,
+}
+
 pub(crate) fn run(arguments: &Arguments) -> Result<Exit, Failure> {
+    let stored = arguments.checkpoint.is_some() || arguments.shard.is_some();
+    render(arguments, &if stored { Recipe::of_process()? } else { Recipe::default() })
+}
+
+/// Goes on with a checkpoint.
+///
+/// * `recipe`: its own, with what is asked for now.
+pub(crate) fn resume(
+    checkpoint: &Path,
+    recipe: &Recipe,
+    quiet: Quiet,
+    threads: Option<u16>,
+) -> Result<Exit, Failure> {
+    let parsed = StoredCommand::try_parse_from(&recipe.arguments).map_err(|error| {
+        Failure::usage(format!(
+            "{}: this version does not know the command line of the checkpoint: {error}",
+            checkpoint.display()
+        ))
+    })?;
+    let mut arguments = parsed.arguments;
+    let changes = &recipe.changes;
+    arguments.scene.scene = recipe.resolve(&arguments.scene.scene);
+    arguments.output = recipe.resolve(changes.output.as_ref().unwrap_or(&arguments.output));
+    arguments.spp = changes.spp.or(arguments.spp);
+    arguments.error = changes.error.or(arguments.error);
+    arguments.time = changes.time.or(arguments.time);
+    arguments.threads = threads.or(arguments.threads);
+    arguments.quiet.quiet |= quiet.quiet;
+    if let Some(target) = &mut arguments.checkpoint {
+        target.path = checkpoint.to_path_buf();
+    }
+    render(&arguments, recipe)
+}
+
+fn render(arguments: &Arguments, recipe: &Recipe) -> Result<Exit, Failure> {
     let output = Output::check(&arguments.output)?;
     if !arguments.aov.is_empty() {
         output.check_layers()?;
+    }
+    if arguments.shard.is_some() {
+        output.check_part()?;
     }
     let interrupt = Interrupt::install()?;
     let start = Instant::now();
     let mut loaded = load(&arguments.scene.scene, &arguments.load_options())?;
     loaded.scene.path.spectral |= arguments.spectral;
     let mut layers = arguments.aov.clone();
-    if output.has_layers() {
+    if arguments.shard.is_some() {
+        // Those of a part would be those of the whole picture, which only a whole render has.
+        if !loaded.layers.is_empty() {
+            eprintln!(
+                "etendue: warning: parts of renders do not have the layers that the scene asks for"
+            );
+        }
+    } else if output.has_layers() {
         layers.extend(loaded.layers.into_iter().map(Aov::from));
     } else if !loaded.layers.is_empty() {
         eprintln!("etendue: warning: only EXR pictures have the layers that the scene asks for");
@@ -160,21 +229,49 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     }
 
     let task = Task::new(arguments, layers, &scene)?;
+    let storage = Storage::open(arguments, recipe, &scene, &loaded.files, &task, &output)?;
+    if storage.as_ref().is_some_and(|storage| storage.is_there) {
+        if !arguments.quiet.quiet {
+            eprintln!("etendue: {} is there and whole", output.path().display());
+        }
+        return Ok(Exit::Done);
+    }
+    let header = storage.as_ref().map(|storage| storage.header.clone());
     let start = Instant::now();
-    let drawing = draw(&task, &scene, &interrupt)?;
-    let render_seconds = start.elapsed().as_secs_f64();
+    let mut drawing = draw(&task, &scene, &interrupt, storage)?;
+    // Samples and rays are those of all processes that have worked on the picture, and so is the time.
+    let seconds_before = header.as_ref().map_or(0.0, |header| header.seconds);
+    let render_seconds = seconds_before + start.elapsed().as_secs_f64();
+    let (trouble, panic) = (drawing.trouble.take(), drawing.panic.take());
+    let part = drawing.sums.take().filter(|_| arguments.shard.is_some());
+    if let Some(sums) = &part {
+        drawing.layers = of_part(sums);
+    }
     let report = Report { render_seconds, build_seconds, drawing: &drawing };
     report.warn_of_bad_samples(scene.sampling.seed);
     report.warn_of_overflow();
 
     let encoding = Encoding { precision: arguments.precision, exposure: arguments.exposure };
-    let metadata = report.metadata(arguments, &scene);
-    output.write(&drawing.image, &drawing.layers, encoding, &metadata)?;
+    let mut metadata = report.metadata(arguments, &scene);
+    if let Some((header, sums)) = header.zip(part) {
+        let configuration = metadata.configuration.clone();
+        let header = Header { seconds: metadata.seconds, configuration, ..header };
+        metadata.part = Some(Stored { header, state: State::Plain(sums) }.to_part()?);
+    }
+    let elsewhere = arguments.checkpoint.as_ref().map(|target| folder(&target.path));
+    output.write_or_rescue(&drawing.image, &drawing.layers, encoding, &metadata, elsewhere)?;
     if !arguments.quiet.quiet {
         eprintln!("etendue: {}", report.summary(&output));
     }
     if arguments.json {
         println!("{}", report.json());
+    }
+    if let Some(panic) = panic {
+        eprintln!("etendue: the work so far is in {}", output.path().display());
+        resume_unwind(panic);
+    }
+    if let Some(failure) = trouble {
+        return Err(failure);
     }
     Ok(match interrupt.exit() {
         Some(exit) => exit,

@@ -27,6 +27,14 @@ pub(crate) struct SceneArguments {
 }
 
 impl SceneArguments {
+    /// Those that a picture depends on, by name.
+    pub(crate) fn settings(&self) -> Vec<(String, String)> {
+        let definitions =
+            self.definitions.iter().map(|(name, value)| (format!("-D {name}"), value.clone()));
+        let bsdf = self.bsdf.iter().map(|bsdf| ("--bsdf".to_owned(), bsdf.clone()));
+        definitions.chain(bsdf).collect()
+    }
+
     /// What these arguments ask of the loader.
     pub(crate) fn load_options(&self) -> LoadOptions {
         LoadOptions {

@@ -1,6 +1,6 @@
 //! Layers beside the picture ("arbitrary output variables").
 
-use etendue_renderer::{Features, Image};
+use etendue_renderer::{Accumulation, Features, Image};
 use etendue_scene::scene::Layer;
 
 /// What is known of pixels beside their colour.
@@ -111,6 +111,16 @@ impl Sources<'_> {
         };
         names.into_iter().enumerate().map(channel).collect()
     }
+}
+
+/// What a part of a render shows beside its mean.
+pub(crate) fn of_part(sums: &Accumulation) -> Vec<Channel> {
+    let squares = sums.second_moments();
+    let mut channels = colors(["square.R", "square.G", "square.B"], |axis| {
+        squares.pixels().iter().map(|p| p.to_array()[axis]).collect()
+    });
+    channels.push(Channel { name: "samples.N", plane: Plane::Count(sums.counts()) });
+    channels
 }
 
 /// The three channels of colours.

@@ -1,7 +1,9 @@
 //! OpenEXR: linear, half or float, with metadata.
 
 use std::io::Cursor;
+use std::path::Path;
 
+use ::exr::meta::MetaData;
 use ::exr::meta::attribute::AttributeValue;
 use ::exr::prelude::{
     AnyChannel, AnyChannels, Encoding, FlatSamples, Image, Layer, LayerAttributes, Text,
@@ -11,6 +13,7 @@ use etendue_renderer::Image as Picture;
 use half::f16;
 
 use super::aov::{Channel, Plane, colors};
+use super::metadata::PART;
 use super::{EncodeResult, Metadata};
 
 /// Sample type of an EXR file.
@@ -36,6 +39,11 @@ pub(super) fn encode(
         let value = AttributeValue::Text(Text::new_or_none(&value).unwrap_or_default());
         attributes.other.insert(Text::from(name), value);
     }
+    if let Some(part) = &metadata.part {
+        let value =
+            AttributeValue::Custom { kind: Text::from("etendue"), bytes: part.as_slice().into() };
+        attributes.other.insert(Text::from(PART), value);
+    }
     let rgb = colors(["R", "G", "B"], |axis| {
         picture.pixels().iter().map(|pixel| pixel.to_array()[axis]).collect()
     });
@@ -52,6 +60,16 @@ pub(super) fn encode(
     .write()
     .to_buffered(&mut Cursor::new(bytes))?;
     Ok(())
+}
+
+/// The part of a render that an EXR picture holds; `None` where it is no EXR picture or holds none.
+pub(crate) fn read_part(path: &Path) -> Option<Vec<u8>> {
+    let meta = MetaData::read_from_file(path, false).ok()?;
+    let mut attributes = meta.headers.into_iter().map(|header| header.own_attributes.other);
+    match attributes.find_map(|mut other| other.remove(&Text::from(PART)))? {
+        AttributeValue::Custom { bytes, .. } => Some(bytes.into_vec()),
+        _ => None,
+    }
 }
 
 /// Colours in the precision asked for; positions, depths and counts would not survive in half.

@@ -18,10 +18,15 @@ pub(crate) struct Metadata {
     /// Samples left out because they were NaN or infinite.
     pub(crate) non_finite: u64,
     /// What was compiled in.
-    pub(crate) configuration: &'static str,
+    pub(crate) configuration: String,
     /// The relative error of the picture, where it is known.
     pub(crate) error: Option<ImageError>,
+    /// The stored render of which this is a part, as [`Stored`](crate::checkpoint::Stored) has it.
+    pub(crate) part: Option<Vec<u8>>,
 }
+
+/// The attribute of an EXR picture that holds a part of a render.
+pub(super) const PART: &str = "etendue.part";
 
 impl Metadata {
     /// Name and value of every entry.
@@ -34,7 +39,7 @@ impl Metadata {
             ("etendue.seed", self.seed.to_string()),
             ("etendue.seconds", format!("{:.3}", self.seconds)),
             ("etendue.non_finite", self.non_finite.to_string()),
-            ("etendue.configuration", self.configuration.to_owned()),
+            ("etendue.configuration", self.configuration.clone()),
         ];
         if let Some(error) = self.error {
             entries.extend([

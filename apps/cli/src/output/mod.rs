@@ -14,8 +14,8 @@ mod metadata;
 mod pfm;
 mod png;
 
-pub(crate) use self::exr::Precision;
-pub(crate) use aov::{Aov, Channel, Sources};
+pub(crate) use self::exr::{Precision, read_part};
+pub(crate) use aov::{Aov, Channel, Sources, of_part};
 pub(crate) use destination::Destination;
 pub(crate) use metadata::Metadata;
 
@@ -86,6 +86,17 @@ impl Output {
         self.destination.path()
     }
 
+    /// Refuses a format that has no room for a part of a render.
+    pub(crate) fn check_part(&self) -> Result<(), Failure> {
+        if self.has_layers() {
+            return Ok(());
+        }
+        Err(Failure::usage(format!(
+            "{}: parts of renders are EXR pictures; name the output *.exr",
+            self.path().display()
+        )))
+    }
+
     /// Encodes and writes the picture, with layers where the format has them; the destination is either untouched or complete.
     pub(crate) fn write(
         &self,
@@ -103,6 +114,39 @@ impl Output {
         }
         .map_err(|error| Failure::write(self.path(), error))?;
         self.destination.write(&bytes)
+    }
+}
+
+/// Writing elsewhere what cannot be written where it was to be.
+impl Output {
+    /// As [`write`](Self::write); where that fails, a picture of the same name is written beside the checkpoint, in the current folder or in
+    /// that of temporary files, whichever is possible first, and the failure says where.
+    pub(crate) fn write_or_rescue(
+        &self,
+        image: &Image,
+        layers: &[Channel],
+        encoding: Encoding,
+        metadata: &Metadata,
+        elsewhere: Option<&Path>,
+    ) -> Result<(), Failure> {
+        let Err(failure) = self.write(image, layers, encoding, metadata) else { return Ok(()) };
+        let temporary = std::env::temp_dir();
+        let folders = elsewhere.into_iter().chain([Path::new("."), temporary.as_path()]);
+        for folder in folders {
+            let path = folder.join(self.path().file_name().unwrap_or_default());
+            // Nothing that is there is replaced.
+            if path.exists() {
+                continue;
+            }
+            let rescued = Self::check(&path)
+                .and_then(|output| output.write(image, layers, encoding, metadata));
+            if rescued.is_ok() {
+                return Err(
+                    failure.adding(&format!("; the picture is in {} instead", path.display()))
+                );
+            }
+        }
+        Err(failure.adding("; nor could the picture be written anywhere else"))
     }
 }
 

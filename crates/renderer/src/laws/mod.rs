@@ -1,7 +1,9 @@
 //! Laws that pictures obey, checked on small scenes.
 
+mod accumulation;
 mod accuracy;
 mod bias;
+mod continuation;
 mod depth;
 mod determinism;
 mod direct_light;

@@ -22,8 +22,9 @@ use tree::{Chosen, LightTree};
 /// Chooses one light, or one triangle of an emitting mesh, for a point on a surface.
 ///
 /// Finite lights hang in a light tree, and are chosen by a bound on the irradiance they can bring.
-/// Infinite ones (environment, constant, directional) share among themselves what the tree leaves:
-/// with n of them and a tree, n/(n+1), in proportion to their power.
+/// Infinite ones (environment, constant, directional) share among themselves what the tree leaves. By how much of them needs
+/// light samples ([`Light::excess`](etendue_scene::light::Light::excess)) they count for 1/16 to 1 each: those that count n together are
+/// chosen, where there is a tree, with probability n/(n+1), and among them in proportion to what they count and their power.
 ///
 /// A light that can light the receiver never has probability 0, and `probability` returns the bits
 /// that `choose` returned.
@@ -52,6 +53,26 @@ struct InfiniteLight {
     probability: f32,
 }
 
+/// What is known of an infinite light.
+#[derive(Clone, Copy, Debug)]
+struct Infinite {
+    light: LightId,
+    power: f32,
+    /// How much of it needs light samples.
+    excess: f32,
+}
+
+impl Infinite {
+    /// What it counts among the others and the tree. More than its excess, because scattering knows nothing of what lies between.
+    fn count(&self) -> f32 {
+        self.excess.max(1.0 / 16.0)
+    }
+
+    fn weight(&self) -> f64 {
+        f64::from(self.count()) * f64::from(self.power)
+    }
+}
+
 /// A light, a primitive of it (a triangle of an emitting mesh, else 0), and the probability of
 /// having chosen both.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -69,17 +90,20 @@ const NOT_IN_TREE: u32 = u32::MAX;
 impl LightSampler {
     /// Prepares the lights of a scene. Lights without power are never chosen.
     pub fn new(scene: &Scene) -> Self {
-        let infinite: Vec<(LightId, f32)> = scene
+        let infinite: Vec<Infinite> = scene
             .infinite_lights()
             .iter()
-            .map(|&light| (light, scene.light_power(light)))
+            .map(|&light| Infinite {
+                light,
+                power: scene.light_power(light),
+                excess: scene.lights[light.0 as usize].excess(),
+            })
             .collect();
         Self::from_lights(&scene.finite_lights(), &infinite)
     }
 
-    /// Prepares finite lights, primitive by primitive with their bounds, and infinite lights with
-    /// their power.
-    fn from_lights(finite: &[(LightId, u32, LightBounds)], infinite: &[(LightId, f32)]) -> Self {
+    /// Prepares finite lights, primitive by primitive with their bounds, and infinite lights.
+    fn from_lights(finite: &[(LightId, u32, LightBounds)], infinite: &[Infinite]) -> Self {
         let bright = |power: f32| power > 0.0 && power.is_finite();
         let finite: Vec<_> = finite.iter().filter(|(_, _, bounds)| bright(bounds.power)).collect();
         let clusters: Vec<Cluster> = finite.iter().map(|(_, _, bounds)| bounds.into()).collect();
@@ -88,18 +112,15 @@ impl LightSampler {
             finite.iter().map(|&&(light, primitive, _)| (light, primitive)).collect();
         let (first_primitive, emitter_of) = index_emitters(&emitters);
 
-        let total: f64 =
-            infinite.iter().filter(|(_, power)| bright(*power)).map(|(_, p)| f64::from(*p)).sum();
+        let infinite: Vec<&Infinite> = infinite.iter().filter(|i| bright(i.power)).collect();
+        let total: f64 = infinite.iter().map(|i| i.weight()).sum();
+        let count: f32 = infinite.iter().map(|i| i.count()).sum();
+        let rest = if tree.is_empty() { 0.0 } else { 1.0 };
+        let infinite_share = if infinite.is_empty() { 0.0 } else { count / (count + rest) };
         let infinite: Vec<InfiniteLight> = infinite
-            .iter()
-            .filter(|(_, power)| bright(*power))
-            .map(|&(light, power)| InfiniteLight {
-                light,
-                probability: (f64::from(power) / total) as f32,
-            })
+            .into_iter()
+            .map(|i| InfiniteLight { light: i.light, probability: (i.weight() / total) as f32 })
             .collect();
-        let rest = usize::from(!tree.is_empty());
-        let infinite_share = infinite.len() as f32 / (infinite.len() + rest).max(1) as f32;
         Self { tree, emitters, first_primitive, emitter_of, infinite, infinite_share }
     }
 
@@ -231,6 +252,25 @@ mod tests {
         (LightId(light), primitive, bounds)
     }
 
+    fn sky(light: u32, power: f32, excess: f32) -> Infinite {
+        Infinite { light: LightId(light), power, excess }
+    }
+
+    #[test]
+    fn what_scattering_finds_as_well_is_chosen_less_often() {
+        let lamps = [lamp(1, 0, Vec3::Z, 1.0)];
+        let with = |infinite: &[Infinite], light| {
+            let lights = LightSampler::from_lights(&lamps, infinite);
+            lights.probability(&RECEIVER, LightId(light), 0)
+        };
+        // 1/16 of 17/16, and one of two: three roundings.
+        assert!((with(&[sky(0, 5.0, 0.0)], 0) - 1.0 / 17.0).abs() < 1e-7);
+        assert!((with(&[sky(0, 5.0, 1.0)], 0) - 0.5).abs() < 1e-7);
+        // Equal powers: half as much of the share for half the excess.
+        let both = [sky(0, 2.0, 1.0), sky(2, 2.0, 0.5)];
+        assert!((with(&both, 0) / with(&both, 2) - 2.0).abs() < 1e-6);
+    }
+
     #[test]
     fn finite_and_infinite_lights_are_chosen_with_the_probabilities_asked_for() {
         let finite = [
@@ -238,7 +278,7 @@ mod tests {
             lamp(1, 2, Vec3::new(0.0, 3.0, 1.0), 1.0),
             lamp(4, 0, Vec3::new(0.0, 0.0, 2.0), 5.0),
         ];
-        let infinite = [(LightId(0), 3.0), (LightId(3), 1.0)];
+        let infinite = [sky(0, 3.0, 1.0), sky(3, 1.0, 1.0)];
         let lights = LightSampler::from_lights(&finite, &infinite);
         assert_eq!(lights.count(), 5);
         let all = [(1, 0), (1, 2), (4, 0), (0, 0), (3, 0)];
@@ -268,7 +308,7 @@ mod tests {
     fn without_lights_or_with_black_ones_nothing_is_chosen() {
         let none = LightSampler::from_lights(&[], &[]);
         let black =
-            LightSampler::from_lights(&[lamp(0, 0, Vec3::Z, 0.0)], &[(LightId(1), f32::NAN)]);
+            LightSampler::from_lights(&[lamp(0, 0, Vec3::Z, 0.0)], &[sky(1, f32::NAN, 1.0)]);
         for lights in [none, black] {
             assert_eq!(lights.count(), 0);
             assert_eq!(lights.choose(&RECEIVER, 0.3), None);

@@ -103,7 +103,7 @@ impl<R: Rays, C: Channels> PathTracer<'_, '_, R, C> {
     /// Out of line, and with a copy of the receiver: a reference would keep it in memory on every path.
     #[inline(never)]
     fn over_all_infinite_lights(&self, receiver: Receiver, direction: Vec3) -> (Color, f32) {
-        (self.scene.background(direction), self.infinite_density(&receiver, direction))
+        self.infinite_light(&receiver, direction)
     }
 
     /// Weight of light that light sampling has found and that scattering could have found.

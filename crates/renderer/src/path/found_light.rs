@@ -67,20 +67,18 @@ impl<R: Rays, C: Channels> PathTracer<'_, '_, R, C> {
     /// Light that a scattered ray has found by leaving the scene, weighted; out of line as well.
     #[inline(never)]
     fn found_background(&self, receiver: Receiver, density: f32, direction: Vec3) -> Color {
-        let radiance = self.scene.background(direction);
-        if radiance.is_black() {
-            return radiance;
-        }
-        radiance * self.scattering_weight(density, || self.infinite_density(&receiver, direction))
+        let (radiance, light_density) = self.infinite_light(&receiver, direction);
+        radiance * self.scattering_weight(density, || light_density)
     }
 
-    /// Density with which light sampling draws a direction towards infinite lights.
-    pub(super) fn infinite_density(&self, receiver: &Receiver, direction: Vec3) -> f32 {
-        let density = |&light: &LightId| {
-            self.lights.probability(receiver, light, 0)
-                * self.scene.light_pdf_escaped(light, direction)
-        };
-        self.scene.infinite_lights().iter().map(density).sum()
+    /// Radiance from infinitely far away, and the density with which light sampling draws the direction: as if from the mixture of
+    /// all infinite lights.
+    #[inline]
+    pub(super) fn infinite_light(&self, receiver: &Receiver, direction: Vec3) -> (Color, f32) {
+        self.scene.infinite_lights().iter().fold((Color::black(), 0.0), |(sum, sum_pdf), &light| {
+            let (radiance, pdf) = self.scene.escaped(light, direction);
+            (sum + radiance, sum_pdf + self.lights.probability(receiver, light, 0) * pdf)
+        })
     }
 
     /// Weight of light that a ray scattered with a density has found and that light sampling would

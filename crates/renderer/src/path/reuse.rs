@@ -41,9 +41,9 @@ use crate::statistics::RayCounts;
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct SharedPath {
     /// What it keeps.
-    own: Color,
+    pub(crate) own: Color,
     /// What it was lent, its own branch included.
-    lent: Color,
+    pub(crate) lent: Color,
     /// As it left the first vertex that scatters; nothing for a path without.
     pub(crate) first: Option<First>,
     joint: Option<Joint>,
@@ -138,12 +138,15 @@ impl Vertex<'_, Primaries> {
 
 impl<R: Rays> PathTracer<'_, '_, R, Primaries> {
     /// A path through the empty space between surfaces, cut where it can be shared.
+    ///
+    /// * `patience`: how much less than 1 the path may carry before roulette ends it.
     #[inline(always)]
     pub(crate) fn path_to_share<S: Sampler>(
         &self,
         camera_ray: Ray,
         points: &S,
         lights: LightSamples<S>,
+        patience: f32,
         rays: &mut RayCounts,
     ) -> SharedPath {
         let longest = self.longest();
@@ -192,7 +195,7 @@ impl<R: Rays> PathTracer<'_, '_, R, Primaries> {
             } else {
                 path.add(walk.throughput * self.direct_light(&vertex, points, 1, rays));
             }
-            let departure = Departure::after(edges).with_lights(count).with_patience(PATIENCE);
+            let departure = Departure::after(edges).with_lights(count).with_patience(patience);
             match self.scatter::<Surfaces, S>(&vertex, departure, &mut walk, points) {
                 Fate::Continues | Fate::Passes => rays.indirect += 1,
                 Fate::Ends => break,
@@ -275,10 +278,6 @@ impl<S: Sampler> LightSamples<S> {
     }
 }
 
-/// The patience of roulette. Where the rest of a path is shared it is worth more: 4 makes a tenth less error at equal time than 1 in a
-/// Cornell box, and a fifth less around glass.
-const PATIENCE: f32 = 4.0;
-
 /// The largest group; of a larger one the others have nothing to do with the first.
 pub(crate) const MOST: usize = 16;
 
@@ -290,9 +289,11 @@ impl SharedPath {
             None => self.own += radiance,
         }
     }
-
-    /// All that the path has, after sharing.
-    pub(crate) fn radiance(&self) -> Color {
-        self.own + self.lent
+    /// What its branch would bring to a path that does not share.
+    pub(crate) fn alone(&self) -> Color {
+        match (&self.joint, &self.branch) {
+            (Some(joint), Some(branch)) => joint.throughput * branch.radiance,
+            _ => Color::black(),
+        }
     }
 }

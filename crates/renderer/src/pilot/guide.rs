@@ -2,14 +2,11 @@
 
 use etendue_math::Real;
 
-use super::pixel::Pilot;
+use super::pixel::{DARK, Pilot};
 
 /// No pixel gets more than this many times the mean, or than this number.
 const MOST: f64 = 16.0;
 const MOST_OF_ALL: f64 = 2_147_483_648.0;
-
-/// Square of a tenth of white: what is darker counts as if it were not.
-pub(super) const DARK: f32 = 0.01;
 
 /// Samples go in proportion to this power of the relative variance per ray. The best one for a known variance would be ½ (Neyman); that
 /// of a pilot is a guess with a spread of its own.
@@ -63,7 +60,7 @@ impl Guide {
                 let Some(pilot) = at(x + dx, y + dy) else { continue };
                 let weight = Real::exp(-((dx * dx + dy * dy) as f32) / (2.0 * SPREAD));
                 weights += weight;
-                rays += weight * (pilot.rays[0] + pilot.rays[1]);
+                rays += weight * pilot.rays.iter().sum::<f32>();
                 for (sum, c) in mean.iter_mut().zip(pilot.mean.to_array()) {
                     *sum += weight * c;
                 }
@@ -176,8 +173,8 @@ mod tests {
             .map(|i| Pilot {
                 mean: Color::splat(1.0),
                 variance: Color::splat(if i % SIZE[0] < 4 { ratio * ratio } else { 1.0 }),
-                first_variance: Color::black(),
-                rays: [2.0, 2.0],
+                rays: [2.0, 2.0, 0.0],
+                ..Pilot::default()
             })
             .collect()
     }
@@ -198,7 +195,7 @@ mod tests {
     fn where_rays_cost_more_there_are_fewer_samples() {
         let mut pilots = striped(32.0);
         for pilot in pilots.iter_mut().filter(|pilot| pilot.variance.r > 1.0) {
-            pilot.rays = [100.0, 400.0];
+            pilot.rays = [100.0, 400.0, 0.0];
         }
         let cheap = Guide::new(SIZE, &striped(32.0)).samples(16, 64);
         let dear = Guide::new(SIZE, &pilots).samples(16, 64);

@@ -24,7 +24,7 @@
 //! pass have the same expectation whatever the plan.
 //!
 //! # Invariants
-//! The same bits for any number of threads, and no allocation per sample. 80 bytes per pixel while rendering.
+//! The same bits for any number of threads, and no allocation per sample. 104 bytes per pixel while rendering.
 
 mod guide;
 mod pixel;
@@ -46,7 +46,7 @@ use crate::render::{Progress, Renderer, Rendering};
 use crate::statistics::{SampleAddress, Statistics};
 use crate::tile::Tile;
 use guide::Guide;
-use pixel::{Extension, PilotPixel};
+use pixel::{Extension, Find, PilotPixel};
 use plan::Plan;
 
 impl Renderer<'_> {
@@ -95,7 +95,7 @@ impl Renderer<'_> {
             let [column, row] = [x - crop.offset[0], y - crop.offset[1]];
             counts[(row * crop.size[0] + column) as usize]
         };
-        passes.draw::<S>(&count, Plan::of(&pilots));
+        passes.draw::<S>(&count, Plan::of(&pilots, f64::from(mean) / f64::from(first)));
         passes.rendering()
     }
 }
@@ -218,6 +218,9 @@ impl<S: Sampler> Task for ExtendTile<'_, '_, '_, S> {
         let tracer = renderer.tracer(rays);
         let mut statistics = Statistics::default();
         let mut members: Vec<Member<'_>> = Vec::with_capacity(MOST);
+        let patience = plan.patience();
+        let mut paths: Vec<SharedPath> = Vec::with_capacity(MOST);
+        let mut weights = [0.0; MOST];
         for group in tile.groups(plan.rectangle) {
             members.clear();
             members.extend(group.map(|place| {
@@ -229,9 +232,7 @@ impl<S: Sampler> Task for ExtendTile<'_, '_, '_, S> {
             let begin = members.iter().map(|member| member.begin).min().unwrap_or(0);
             let end = members.iter().map(|member| member.extension.end()).max().unwrap_or(0);
             for sample in begin..end {
-                let mut paths = [SharedPath::default(); MOST];
-                let mut weights = [0.0; MOST];
-                let mut count = 0;
+                paths.clear();
                 for member in members.iter_mut().filter(|member| member.takes(sample)) {
                     let (pixel, sample) = (member.pixel, u64::from(sample));
                     let points = S::at(seed, pixel, sample);
@@ -244,26 +245,32 @@ impl<S: Sampler> Task for ExtendTile<'_, '_, '_, S> {
                         sampler: PhantomData::<S>,
                     };
                     let before = statistics.rays.total();
-                    let path = tracer.path_to_share(ray, &points, lights, &mut statistics.rays);
+                    let path =
+                        tracer.path_to_share(ray, &points, lights, patience, &mut statistics.rays);
                     let after = statistics.rays.total();
                     let first = path.first.map_or(after, |first| first.rays);
-                    member.extension.spend([first - before, after - first]);
-                    (paths[count], weights[count]) = (path, weight);
-                    count += 1;
+                    member.extension.spend([first - before, after - first, 0]);
+                    weights[paths.len()] = weight;
+                    paths.push(path);
                 }
-                tracer.share(&mut paths[..count], &mut statistics.rays);
-                let found = paths.iter().zip(weights).take(count);
+                let before = statistics.rays.total();
+                tracer.share(&mut paths, &mut statistics.rays);
+                let to_share = statistics.rays.total() - before;
+                let found = paths.iter().zip(weights);
                 let members = members.iter_mut().filter(|member| member.takes(sample));
-                for (member, (path, weight)) in members.zip(found) {
-                    let all = path.radiance().scale(weight);
-                    let first = path.first.map_or(all, |first| first.radiance.scale(weight));
-                    if !member.extension.add(all, first) {
+                for (i, (member, (path, weight))) in (0..).zip(members.zip(found)) {
+                    // Evenly, what does not divide included.
+                    member.extension.spend([0, 0, (to_share + i) / paths.len() as u64]);
+                    let [own, lent, alone] =
+                        [path.own, path.lent, path.alone()].map(|light| light.scale(weight));
+                    let first = path.first.map_or(own, |first| first.radiance.scale(weight));
+                    if !member.extension.add(Find { own, lent, alone, first }) {
                         let [column, row] = member.pixel;
                         let sample = u64::from(sample);
                         statistics.non_finite.record(SampleAddress { row, column, sample });
                     }
                 }
-                statistics.samples += count as u64;
+                statistics.samples += paths.len() as u64;
             }
             for member in members.drain(..) {
                 pixels[member.place] = member.extension.finish();

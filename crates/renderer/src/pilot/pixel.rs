@@ -8,6 +8,9 @@ use crate::film::PixelSum;
 /// Runs of consecutive samples whose means are compared.
 const RUNS: u32 = 4;
 
+/// Square of a tenth of white: what is darker counts as if it were not.
+pub(super) const DARK: f32 = 0.01;
+
 /// What the first samples of a pixel say.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Pilot {
@@ -15,10 +18,41 @@ pub(super) struct Pilot {
     pub(super) mean: Color,
     /// The variance of the mean.
     pub(super) variance: Color,
-    /// That of what paths find up to their first vertex that scatters, light samples there included.
-    pub(super) first_variance: Color,
-    /// Rays per sample, up to there and from there on.
-    pub(super) rays: [f32; 2],
+    /// Of what paths find up to their first vertex that scatters, light samples there included.
+    pub(super) first: Spread,
+    /// Of all that paths have found themselves and do not share.
+    pub(super) own: Spread,
+    /// Of what they were lent, and of what they would have without sharing.
+    pub(super) lent: Spread,
+    pub(super) alone: Spread,
+    /// Rays per sample: up to the first vertex that scatters, from there on, and to share.
+    pub(super) rays: [f32; 3],
+}
+
+/// How much a part of a pixel varies, relative to the whole: of variances the sum over channels of
+///
+/// ```text
+/// variance / (mean² + 0.01)
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Spread {
+    /// Of the mean of all samples, from four runs of them.
+    pub(super) of_all: f32,
+    /// Of the mean of half of them, from the two halves.
+    pub(super) of_half: f32,
+}
+
+/// What a sample has found.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Find {
+    /// By itself.
+    pub(super) own: Color,
+    /// By sharing.
+    pub(super) lent: Color,
+    /// Instead of that without sharing.
+    pub(super) alone: Color,
+    /// At the first vertex that scatters.
+    pub(super) first: Color,
 }
 
 /// The sum of a pixel's samples so far, and what the first ones say.
@@ -70,8 +104,11 @@ struct Runs {
     left: u32,
     count: u32,
     all: Moments,
+    own: Moments,
+    lent: Moments,
+    alone: Moments,
     first: Moments,
-    rays: [u64; 2],
+    rays: [u64; 3],
 }
 
 /// Of one kind of light.
@@ -80,55 +117,82 @@ struct Moments {
     present: PixelSum,
     sum: Color,
     squares: Color,
+    /// Of the first half of the runs.
+    half: Color,
 }
 
 impl Moments {
-    fn end_run(&mut self) {
+    fn end_run(&mut self, run: u32) {
         let mean = core::mem::take(&mut self.present).mean();
         self.sum += mean;
         self.squares += mean * mean;
+        if run == RUNS / 2 {
+            self.half = self.sum;
+        }
     }
 
-    /// Mean, and variance of the mean.
-    fn of(&self, runs: f32) -> [Color; 2] {
-        let mean = self.sum.scale(1.0 / runs.max(1.0));
+    /// The mean of so many runs.
+    fn mean(&self, runs: f32) -> Color {
+        self.sum.scale(1.0 / runs.max(1.0))
+    }
+
+    /// Its variance.
+    fn variance(&self, runs: f32) -> Color {
         if runs < 2.0 {
-            return [mean, Color::black()];
+            return Color::black();
         }
-        let (squares, means) = (self.squares.to_array(), mean.to_array());
+        let (squares, means) = (self.squares.to_array(), self.mean(runs).to_array());
         // Cancellation may leave less than nothing.
-        let variance = core::array::from_fn::<f32, 3, _>(|i| {
-            ((squares[i] / runs - means[i] * means[i]) / (runs - 1.0)).max(0.0)
-        });
-        [mean, variance.into()]
+        let variance =
+            |i: usize| ((squares[i] / runs - means[i] * means[i]) / (runs - 1.0)).max(0.0);
+        core::array::from_fn::<f32, 3, _>(variance).into()
+    }
+
+    /// How much it varies in a pixel whose mean is `pixel`.
+    fn spread(&self, runs: f32, pixel: Color) -> Spread {
+        let relative = |variance: Color| {
+            let channels = variance.to_array().into_iter().zip(pixel.to_array());
+            channels.map(|(v, m)| v / (m * m + DARK)).sum::<f32>()
+        };
+        // The halves have the means h and 2 m − h, and differ by 2 (h − m).
+        let difference = self.half.scale(2.0 / runs.max(1.0)) + self.mean(runs).scale(-1.0);
+        let of_half = (difference * difference).scale(if runs < 2.0 { 0.0 } else { 2.0 });
+        Spread { of_all: relative(self.variance(runs)), of_half: relative(of_half) }
     }
 }
 
 impl Runs {
     fn of(samples: u32) -> Self {
         let length = (samples / RUNS).max(1);
-        let (all, first) = (Moments::default(), Moments::default());
-        Self { length, left: length, count: 0, all, first, rays: [0; 2] }
+        let [all, own, lent, alone, first] = core::array::from_fn(|_| Moments::default());
+        Self { length, left: length, count: 0, all, own, lent, alone, first, rays: [0; 3] }
     }
 
-    fn add(&mut self, all: Color, first: Color) {
+    fn add(&mut self, find: Find) {
         // What is not finite is reported by who adds it to the pixel.
-        let _ = self.all.present.add(all);
-        let _ = self.first.present.add(first);
+        let _ = self.all.present.add(find.own + find.lent);
+        let _ = self.own.present.add(find.own);
+        let _ = self.lent.present.add(find.lent);
+        let _ = self.alone.present.add(find.alone);
+        let _ = self.first.present.add(find.first);
         self.left -= 1;
         if self.left == 0 {
-            self.all.end_run();
-            self.first.end_run();
             (self.count, self.left) = (self.count + 1, self.length);
+            let Self { all, own, lent, alone, first, .. } = self;
+            for moments in [all, own, lent, alone, first] {
+                moments.end_run(self.count);
+            }
         }
     }
 
     fn pilot(&self) -> Pilot {
         let runs = self.count as f32;
-        let [mean, variance] = self.all.of(runs);
-        let [_, first_variance] = self.first.of(runs);
+        let (mean, variance) = (self.all.mean(runs), self.all.variance(runs));
+        let [first, own, lent, alone] = [&self.first, &self.own, &self.lent, &self.alone]
+            .map(|moments| moments.spread(runs, mean));
         let samples = (self.count * self.length).max(1) as f32;
-        Pilot { mean, variance, first_variance, rays: self.rays.map(|rays| rays as f32 / samples) }
+        let rays = self.rays.map(|rays| rays as f32 / samples);
+        Pilot { mean, variance, first, own, lent, alone, rays }
     }
 }
 
@@ -138,9 +202,9 @@ impl Extension {
         self.end
     }
 
-    /// Takes account of the rays that a sample cost, up to its first vertex that scatters and from there on.
+    /// Takes account of the rays that a sample cost: up to its first vertex that scatters, from there on, and to share.
     #[inline]
-    pub(super) fn spend(&mut self, rays: [u64; 2]) {
+    pub(super) fn spend(&mut self, rays: [u64; 3]) {
         if let Some(runs) = &mut self.runs {
             for (sum, rays) in runs.rays.iter_mut().zip(rays) {
                 *sum += rays;
@@ -148,14 +212,14 @@ impl Extension {
         }
     }
 
-    /// Adds one sample, of which the path had found `first` at its first vertex that scatters, and says whether it counts.
+    /// Adds one sample, and says whether it counts.
     #[inline]
     #[must_use = "a sample that was left out has to be reported"]
-    pub(super) fn add(&mut self, all: Color, first: Color) -> bool {
+    pub(super) fn add(&mut self, find: Find) -> bool {
         if let Some(runs) = &mut self.runs {
-            runs.add(all, first);
+            runs.add(find);
         }
-        self.pixel.sum.add(all)
+        self.pixel.sum.add(find.own + find.lent)
     }
 
     /// The pixel with all samples.
@@ -176,9 +240,11 @@ mod tests {
         let end = pixel.drawn() + values.len() as u32;
         let mut extension = pixel.extend(end);
         for &value in values {
-            let counts = extension.add(Color::splat(value), Color::black());
-            assert_eq!(counts, value.is_finite());
-            extension.spend([1, 2]);
+            let own = Color::splat(value);
+            let [lent, alone, first] = [Color::black(); 3];
+            let find = Find { own, lent, alone, first };
+            assert_eq!(extension.add(find), value.is_finite());
+            extension.spend([1, 2, 3]);
         }
         *pixel = extension.finish();
     }
@@ -187,14 +253,15 @@ mod tests {
     fn the_first_samples_are_the_pilot_and_all_are_the_mean() {
         let mut pixel = PilotPixel::default();
         extended(&mut pixel, &[1.0, 3.0, 2.0, 4.0, 3.0, 5.0, 4.0, 6.0]);
-        // Runs of 2, 3, 4 and 5: their mean has the variance (1.5² + 0.5² + 0.5² + 1.5²) / (4 · 3).
-        let pilot = Pilot {
-            mean: Color::splat(3.5),
-            variance: Color::splat(5.0 / 12.0),
-            ..Pilot::default()
-        };
-        assert!((pixel.pilot().variance.r - pilot.variance.r).abs() < 1e-6, "a few roundings");
-        assert_eq!((pixel.pilot().mean, pixel.pilot().rays), (pilot.mean, [1.0, 2.0]));
+        // Runs of 2, 3, 4 and 5:
+        // (1.5² + 0.5² + 0.5² + 1.5²) / (4 · 3); halves of 2.5 and 4.5: 2² / 2.
+        let pilot = pixel.pilot();
+        let near = |a: f32, b: f32| (a / b - 1.0).abs() < 1e-6; // A few roundings.
+        assert!(near(pilot.variance.r, 5.0 / 12.0));
+        let white = 3.0 / (3.5 * 3.5 + DARK);
+        assert!(near(pilot.own.of_all, 5.0 / 12.0 * white) && near(pilot.own.of_half, 2.0 * white));
+        assert_eq!(pilot.lent, Spread::default());
+        assert_eq!((pilot.mean, pilot.rays), (Color::splat(3.5), [1.0, 2.0, 3.0]));
         extended(&mut pixel, &[8.0, f32::NAN]);
         assert_eq!((pixel.drawn(), pixel.mean()), (10, Color::splat(4.0)));
         assert_eq!(pixel.pilot().mean, pilot.mean);
@@ -204,9 +271,10 @@ mod tests {
     fn less_than_two_runs_have_no_variance() {
         let mut pixel = PilotPixel::default();
         extended(&mut pixel, &[7.0]);
+        assert_eq!(pixel.pilot().mean, Color::splat(7.0));
         assert_eq!(
-            (pixel.pilot().mean, pixel.pilot().variance),
-            (Color::splat(7.0), Color::black())
+            (pixel.pilot().variance, pixel.pilot().own),
+            (Color::black(), Spread::default())
         );
     }
 }

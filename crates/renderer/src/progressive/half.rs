@@ -5,6 +5,8 @@ use core::ops::Range;
 use etendue_math::Spectrum;
 use etendue_scene::Color;
 
+use super::schedule::HIGHEST;
+use crate::codec::{Reader, StateError, Write as _};
 use crate::film::PixelSum;
 
 /// Number of levels whose differences are remembered.
@@ -24,7 +26,7 @@ pub(super) const REACH: u32 = KEPT as u32 - 2;
 /// ```
 ///
 /// which for independent samples estimates the variance of their common mean without bias.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Half {
     mean: Color,
     /// Samples that count: those drawn but for the non-finite ones.
@@ -70,6 +72,39 @@ impl Half {
         let share = (block.count() as f64 / f64::from(count.max(1))) as f32;
         self.mean = self.mean.scale(1.0 - share) + mean.scale(share);
         (self.count, self.drawn) = (count, drawn);
+    }
+}
+
+/// How halves are stored.
+impl Half {
+    /// Bytes of a half.
+    pub(super) const BYTES: u64 = 4 * (3 + 1 + 1 + KEPT as u64);
+
+    pub(super) fn write(&self, bytes: &mut Vec<u8>) {
+        for channel in self.mean.to_array() {
+            bytes.u32(channel.to_bits());
+        }
+        bytes.u32(self.count);
+        bytes.u32(self.drawn);
+        for difference in self.differences {
+            bytes.u32(difference.to_bits());
+        }
+    }
+
+    pub(super) fn read(reader: &mut Reader<'_>) -> Result<Self, StateError> {
+        let mut mean = [0.0; 3];
+        for channel in &mut mean {
+            *channel = f32::from_bits(reader.u32()?);
+        }
+        let (count, drawn) = (reader.u32()?, reader.u32()?);
+        if count > drawn || drawn > 1 << HIGHEST || drawn.count_ones() > 1 {
+            return Err(StateError::new("a pixel has a number of samples that cannot be"));
+        }
+        let mut differences = [0.0; KEPT];
+        for difference in &mut differences {
+            *difference = f32::from_bits(reader.u32()?);
+        }
+        Ok(Self { mean: mean.into(), count, drawn, differences })
     }
 }
 

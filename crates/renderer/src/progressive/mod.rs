@@ -28,6 +28,9 @@
 //! A render that is not halted has the same bits for any number of threads. A halted one stops at any
 //! pixel, each of which is a mean of whole doublings.
 //!
+//! # Stopping and going on
+//! What a render knows is a [`ProgressiveState`], which can be copied at any time, stored and continued.
+//!
 //! # Memory
 //! About 110 bytes per pixel while rendering.
 
@@ -39,8 +42,10 @@ mod half;
 mod image_error;
 mod rounds;
 mod schedule;
+mod state;
 
 pub use convergence::{Round, exponent, factor_for_half};
 pub use goal::{Allocation, Goal, Halt};
 pub use image_error::{CONFIDENCE, ImageError};
 pub use rounds::{Advance, ProgressiveRendering};
+pub use state::ProgressiveState;

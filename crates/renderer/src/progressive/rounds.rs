@@ -1,18 +1,21 @@
 //! The rounds of a progressive render.
 
+use alloc::sync::Arc;
 use core::marker::PhantomData;
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use etendue_sampling::Sampler;
+use etendue_scene::film::Crop;
 use etendue_scene::geometry::{Rays, Task};
 
 use super::allocation::{dither, levels, merits};
-use super::canvas::{self, Canvas, CanvasTile};
+use super::canvas::{self, CanvasTile};
 use super::convergence::Round;
 use super::goal::{Goal, Halt};
 use super::half::Half;
 use super::image_error::ImageError;
 use super::schedule::{Schedule, Stage, UNIFORM};
+use super::state::ProgressiveState;
 use crate::configuration::Configured;
 use crate::film::{Image, PixelSum};
 use crate::path::Transport;
@@ -64,7 +67,24 @@ impl Renderer<'_> {
         report: &(dyn Fn(Advance) + Sync),
         halt: &(dyn Fn() -> Halt + Sync),
     ) -> ProgressiveRendering {
-        self.configured(RunRounds { rounds: Rounds::new(self, report, halt), goal })
+        let work = Mutex::new(ProgressiveState::new(self.scene.film.crop, goal.allocation));
+        self.continue_progressively(&work, goal, report, halt);
+        work.into_inner().unwrap_or_else(PoisonError::into_inner).rendering()
+    }
+
+    /// Goes on with a progressive render until a goal is reached, as [`render_progressively`](Self::render_progressively) does from
+    /// the beginning. Samples go where they have gone so far, whatever the goal says.
+    ///
+    /// `work` is locked for moments only, and whole at any time: another thread may copy it for storing, and after a panic all
+    /// tiles that were finished are in it.
+    pub fn continue_progressively(
+        &self,
+        work: &Mutex<ProgressiveState>,
+        goal: &Goal,
+        report: &(dyn Fn(Advance) + Sync),
+        halt: &(dyn Fn() -> Halt + Sync),
+    ) {
+        self.configured(RunRounds { rounds: Rounds::new(self, work, report, halt), goal });
     }
 }
 
@@ -72,9 +92,11 @@ impl Renderer<'_> {
 impl Renderer<'_> {
     /// The mistake that the two halves avoid: each half is allocated by what it has found itself.
     pub(crate) fn render_guided_by_own_samples(&self, goal: &Goal) -> ProgressiveRendering {
-        let mut rounds = Rounds::new(self, &|_| (), &|| Halt::No);
+        let work = Mutex::new(ProgressiveState::new(self.scene.film.crop, goal.allocation));
+        let mut rounds = Rounds::new(self, &work, &|_| (), &|| Halt::No);
         rounds.guides = [0, 1];
-        self.configured(RunRounds { rounds, goal })
+        self.configured(RunRounds { rounds, goal });
+        work.into_inner().unwrap_or_else(PoisonError::into_inner).rendering()
     }
 }
 
@@ -85,132 +107,146 @@ struct RunRounds<'r, 'a> {
 }
 
 impl Configured for RunRounds<'_, '_> {
-    type Output = ProgressiveRendering;
+    type Output = ();
 
-    fn run<S: Sampler, T: Transport>(self) -> ProgressiveRendering {
-        self.rounds.run::<S, T>(self.goal)
+    fn run<S: Sampler, T: Transport>(self) {
+        self.rounds.run::<S, T>(self.goal);
     }
 }
 
 /// A progressive render under way.
 struct Rounds<'r, 'a> {
     renderer: &'r Renderer<'a>,
+    work: &'r Mutex<ProgressiveState>,
     report: &'r (dyn Fn(Advance) + Sync),
     halt: &'r (dyn Fn() -> Halt + Sync),
-    canvas: Canvas,
+    crop: Crop,
+    tiles: Vec<(usize, Tile)>,
     dither: Vec<u8>,
-    /// Level that each half of each pixel has or is being brought to.
-    levels: [Vec<u8>; 2],
     /// For each half, the one by whose differences its samples are allocated.
     guides: [usize; 2],
-    finished: Vec<Round>,
-    statistics: Statistics,
 }
 
 impl<'r, 'a> Rounds<'r, 'a> {
     fn new(
         renderer: &'r Renderer<'a>,
+        work: &'r Mutex<ProgressiveState>,
         report: &'r (dyn Fn(Advance) + Sync),
         halt: &'r (dyn Fn() -> Halt + Sync),
     ) -> Self {
         let crop = renderer.scene.film.crop;
+        let tiles = Tile::cover(&crop).into_iter().enumerate().collect();
         let dither = dither(&crop);
-        Self {
-            renderer,
-            report,
-            halt,
-            canvas: Canvas::new(crop),
-            levels: [vec![0; dither.len()], vec![0; dither.len()]],
-            guides: [1, 0],
-            dither,
-            finished: Vec::new(),
-            statistics: Statistics::default(),
+        Self { renderer, work, report, halt, crop, tiles, dither, guides: [1, 0] }
+    }
+
+    /// A poisoned lock means that a report panicked: what it guards is whole.
+    fn lock(&self) -> MutexGuard<'r, ProgressiveState> {
+        self.work.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn run<S: Sampler, T: Transport>(self, goal: &Goal) {
+        let goal = Goal { allocation: self.lock().allocation, ..*goal };
+        for (place, stage) in (0..).zip(Schedule::new(&goal)) {
+            // Of a render that goes on, the rounds that it has behind it are left out, and one that was begun is not begun again.
+            let before = self.lock().clone();
+            let is_last = place + 1 == before.begun && before.last == Some(stage);
+            if place + 1 < before.begun {
+                continue;
+            }
+            if !(is_last && before.is_finished) {
+                if !is_last {
+                    self.begin(place, stage, &before);
+                }
+                self.round::<S, T>();
+                let error = self.lock().error();
+                let Some(error) = error.filter(|_| (self.halt)() == Halt::No) else { return };
+                self.finish(error);
+            }
+            let reached = {
+                let last = self.lock().finished.last().copied();
+                goal.error.zip(last).is_some_and(|(bound, round)| round.error.upper <= bound)
+            };
+            if reached && stage.samples_per_pixel >= UNIFORM {
+                return;
+            }
         }
     }
 
-    fn run<S: Sampler, T: Transport>(mut self, goal: &Goal) -> ProgressiveRendering {
-        for stage in Schedule::new(goal) {
-            self.levels = [0, 1].map(|half| self.levels_of(half, stage));
-            self.round::<S, T>();
-            let Some(error) = self.error().filter(|_| (self.halt)() == Halt::No) else { break };
-            self.finished.push(Round { samples_per_pixel: self.samples_per_pixel(), error });
-            (self.report)(self.advance());
-            let reached = goal.error.is_some_and(|bound| error.upper <= bound);
-            if reached && stage.samples_per_pixel >= UNIFORM {
-                break;
-            }
-        }
-        let halves = self.canvas.halves();
-        ProgressiveRendering {
-            image: canvas::mean(&halves),
-            variance: canvas::variance(&halves),
-            samples: self.canvas.samples(),
-            error: self.error(),
-            rounds: self.finished,
-            statistics: self.statistics,
-        }
+    /// Decides what the samples of a round are.
+    fn begin(&self, place: u32, stage: Stage, before: &ProgressiveState) {
+        let levels = Arc::new([0, 1].map(|half| self.levels_of(half, stage, before)));
+        let mut work = self.lock();
+        work.levels = levels;
+        work.begun = place + 1;
+        // A round that a smaller limit had cut short counts once, as what it becomes.
+        work.finished.truncate(place as usize);
+        work.last = Some(stage);
+        work.is_finished = false;
+    }
+
+    fn finish(&self, error: ImageError) {
+        let mut work = self.lock();
+        let round = Round { samples_per_pixel: work.samples_per_pixel(), error };
+        work.finished.push(round);
+        work.is_finished = true;
+        drop(work);
+        (self.report)(self.advance());
     }
 
     /// Levels of one half of the pixels after a stage.
-    fn levels_of(&self, half: usize, stage: Stage) -> Vec<u8> {
+    fn levels_of(&self, half: usize, stage: Stage, before: &ProgressiveState) -> Vec<u8> {
         let merits = stage.known.map(|known| {
             let guide = self.guides[half];
-            let variances = self.canvas.map(|halves| halves[guide].difference(known));
-            merits(&variances, self.renderer.scene.film.crop.size[0] as usize)
+            let variances = before.canvas.map(|halves| halves[guide].difference(known));
+            merits(&variances, self.crop.size[0] as usize)
         });
         let budget = (0.5 * stage.samples_per_pixel * self.dither.len() as f64 + 0.5) as u64;
-        levels(merits.as_deref(), &self.dither, &self.levels[half], stage.bounds, budget)
-    }
-
-    fn samples_per_pixel(&self) -> f64 {
-        self.statistics.samples as f64 / self.dither.len() as f64
+        levels(merits.as_deref(), &self.dither, &before.levels[half], stage.bounds, budget)
     }
 
     fn advance(&self) -> Advance {
+        let work = self.lock();
         Advance {
-            samples_per_pixel: self.samples_per_pixel(),
-            error: self.finished.last().map(|round| round.error),
+            samples_per_pixel: work.samples_per_pixel(),
+            error: work.finished.last().map(|round| round.error),
         }
     }
 
-    fn error(&self) -> Option<ImageError> {
-        let whole = self.canvas.map(|halves| halves.iter().all(|half| half.drawn() > 0));
-        let [a, b] = self.canvas.halves();
-        whole.into_iter().all(|whole| whole).then(|| ImageError::between(&a, &b))
-    }
-
     /// Brings every pixel to its level.
-    fn round<S: Sampler, T: Transport>(&mut self) {
-        let first = self.finished.is_empty();
+    fn round<S: Sampler, T: Transport>(&self) {
+        let (first, levels) = {
+            let work = self.lock();
+            (work.finished.is_empty(), Arc::clone(&work.levels))
+        };
         let halted = || match (self.halt)() {
             Halt::No => false,
             Halt::WhenWhole => !first,
             Halt::Now => true,
         };
-        let advance = self.advance();
-        let done = Mutex::new((Statistics::default(), advance));
+        let advance = Mutex::new(self.advance());
         let pixels = self.dither.len() as f64;
-        self.renderer.share_out(&self.canvas.tiles, &halted, |piece: &CanvasTile| {
-            let mut halves = piece.pixels.lock().unwrap_or_else(PoisonError::into_inner);
+        self.renderer.share_out(&self.tiles, &halted, |&(index, tile)| {
+            let before = self.lock().canvas.tile(index);
+            let mut after = CanvasTile::clone(&before);
             let task = ExtendTile::<S, T> {
                 renderer: self.renderer,
-                tile: piece.tile,
-                halves: &mut halves,
-                canvas: &self.canvas,
-                levels: &self.levels,
+                tile,
+                halves: &mut after.pixels,
+                crop: &self.crop,
+                levels: &levels,
                 halted: &halted,
                 configuration: PhantomData,
             };
             let statistics = self.renderer.scene.geometry.run(task);
-            let mut shared = done.lock().unwrap_or_else(PoisonError::into_inner);
-            shared.0.merge(&statistics);
-            shared.1.samples_per_pixel += statistics.samples as f64 / pixels;
-            let advance = shared.1;
+            after.statistics.merge(&statistics);
+            self.lock().canvas.replace(index, after);
+            let mut shared = advance.lock().unwrap_or_else(PoisonError::into_inner);
+            shared.samples_per_pixel += statistics.samples as f64 / pixels;
+            let advance = *shared;
             drop(shared);
             (self.report)(advance);
         });
-        let (statistics, _) = done.into_inner().unwrap_or_else(PoisonError::into_inner);
-        self.statistics.merge(&statistics);
     }
 }
 
@@ -219,7 +255,7 @@ struct ExtendTile<'t, 'r, 'a, S, T> {
     renderer: &'r Renderer<'a>,
     tile: Tile,
     halves: &'t mut [[Half; 2]],
-    canvas: &'t Canvas,
+    crop: &'t Crop,
     levels: &'t [Vec<u8>; 2],
     halted: &'t (dyn Fn() -> bool + Sync),
     configuration: PhantomData<(S, T)>,
@@ -234,7 +270,7 @@ impl<S: Sampler, T: Transport> Task for ExtendTile<'_, '_, '_, S, T> {
         let tracer = renderer.tracer::<T::Channels, R>(rays);
         let mut statistics = Statistics::default();
         for (pixel, halves) in self.tile.pixels().zip(self.halves) {
-            let index = self.canvas.index(pixel);
+            let index = canvas::index(self.crop, pixel);
             if (self.halted)() {
                 break;
             }

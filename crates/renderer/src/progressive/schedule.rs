@@ -4,6 +4,7 @@ use etendue_math::Real;
 
 use super::goal::{Allocation, Goal};
 use super::half::REACH;
+use crate::codec::{Reader, StateError, Write as _};
 
 /// The level that every pixel reaches before samples are allocated: eight samples in each half.
 const START: u32 = 3;
@@ -12,7 +13,7 @@ const START: u32 = 3;
 pub(super) const UNIFORM: f64 = (2 << START) as f64;
 
 /// No pixel goes beyond 2²⁹ samples in either half.
-const HIGHEST: u32 = 29;
+pub(super) const HIGHEST: u32 = 29;
 
 /// Levels that samples may be allocated to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -33,6 +34,24 @@ pub(super) struct Stage {
     /// The level, reached by every pixel before the round, whose differences decide; `None` where all
     /// pixels deserve the same.
     pub(super) known: Option<u32>,
+}
+
+/// How stages are stored.
+impl Stage {
+    pub(super) fn write(&self, bytes: &mut Vec<u8>) {
+        bytes.u64(self.samples_per_pixel.to_bits());
+        bytes.u32(self.bounds.lowest);
+        bytes.u32(self.bounds.highest);
+        bytes.u8(u8::from(self.known.is_some()));
+        bytes.u32(self.known.unwrap_or(0));
+    }
+
+    pub(super) fn read(reader: &mut Reader<'_>) -> Result<Self, StateError> {
+        let samples_per_pixel = f64::from_bits(reader.u64()?);
+        let bounds = Bounds { lowest: reader.u32()?, highest: reader.u32()? };
+        let (is_known, known) = (reader.bool()?, reader.u32()?);
+        Ok(Self { samples_per_pixel, bounds, known: is_known.then_some(known) })
+    }
 }
 
 /// The rounds of a render. They double the samples up to 16 per pixel and multiply them by ⁴√2 from

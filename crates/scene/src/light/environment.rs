@@ -23,9 +23,14 @@ use crate::texture::{BitmapImage, Wrap};
 /// lies at `v = j / (H − 1)`, so that the first and the last row are the poles. In between, values
 /// are interpolated linearly.
 ///
+/// # Sampling
+/// Light that is as bright as the mean of the map, or less, is found well by the directions in which surfaces scatter, and with
+/// multiple importance sampling light samples are best spent on what is brighter ([`weight`]).
+///
 /// # Source
 /// Mitsuba 3's `envmap`. Its look-up takes the exact south pole for the north pole; this one does
-/// not.
+/// not. Karlík, Šik, Vévoda, Skřivan, Křivánek, "MIS Compensation: Optimizing Sampling Techniques in Multiple Importance
+/// Sampling", SIGGRAPH Asia 2019, section 5.1.
 #[derive(Clone, Debug)]
 pub struct EnvironmentLight {
     image: BitmapImage,
@@ -36,6 +41,8 @@ pub struct EnvironmentLight {
     tables: Option<Vec<f32>>,
     /// Luminance integrated over the sphere of directions.
     total: f32,
+    /// Of it the share for which directions are drawn.
+    excess: f32,
 }
 
 impl EnvironmentLight {
@@ -57,11 +64,21 @@ impl EnvironmentLight {
         let mut weights = Vec::with_capacity(columns * rows);
         let mut total = 0.0;
         for row in 0..rows {
-            let solid_angle = band(row, rows) / columns as f64;
+            let solid_angle = solid_angle(row, [columns, rows]);
             for column in 0..columns {
-                let mean = mean_luminance(&image, column as u32, row as u32);
-                total += f64::from(mean) * solid_angle;
-                weights.push((f64::from(mean) * solid_angle) as f32);
+                let luminance = mean_luminance(&image, column as u32, row as u32);
+                total += f64::from(luminance) * solid_angle;
+                weights.push(luminance);
+            }
+        }
+        let mean = total / (4.0 * f64::PI);
+        let mut excess = 0.0;
+        for (row, weights) in weights.chunks_mut(columns).enumerate() {
+            let solid_angle = solid_angle(row, [columns, rows]);
+            for w in weights {
+                let weight = weight(f64::from(*w), mean) * solid_angle;
+                excess += weight;
+                *w = weight as f32;
             }
         }
         let tables = Tabulated2d::<f32>::storage_len(columns, rows).and_then(|length| {
@@ -69,7 +86,8 @@ impl EnvironmentLight {
             Tabulated2d::build(&weights, columns, rows, &mut storage).ok()?;
             Some(storage)
         });
-        Ok(Self { image, to_world, scale, tables, total: total as f32 * scale })
+        let excess = if total > 0.0 { (excess / total) as f32 } else { 0.0 };
+        Ok(Self { image, to_world, scale, tables, total: total as f32 * scale, excess })
     }
 
     /// The map.
@@ -116,7 +134,7 @@ impl EnvironmentLight {
     /// A direction by the brightness of the map.
     ///
     /// ```text
-    /// p(ω) = p(u, v) / (2π² sin θ),  p(u, v) ∝ mean luminance of a cell's corners × its solid angle
+    /// p(ω) = p(u, v) / (2π² sin θ),  p(u, v) ∝ weight(mean luminance of a cell's corners) × its solid angle
     /// ```
     #[inline]
     pub(crate) fn sample(&self, u: [f32; 2]) -> Option<LightSample> {
@@ -138,17 +156,17 @@ impl EnvironmentLight {
         })
     }
 
-    /// Density with which `sample` draws a unit direction of the world.
+    /// Radiance from a unit direction of the world, and the density with which `sample` draws it.
     #[inline]
-    pub(crate) fn pdf(&self, direction: Vec3) -> f32 {
-        let (Some(distribution), Some(place)) = (self.distribution(), self.to_map(direction))
-        else {
-            return 0.0;
+    pub(crate) fn radiance_and_pdf(&self, direction: Vec3) -> (Color, f32) {
+        let Some(Place { uv: [u, v], sin_theta }) = self.to_map(direction) else {
+            return (Color::black(), 0.0);
         };
-        let x = place.uv[0] - self.half_texel();
+        let Some(distribution) = self.distribution() else { return (self.at([u, v]), 0.0) };
+        let x = u - self.half_texel();
         let x = Real::min(x - Real::floor(x), f32::ONE_MINUS_EPSILON);
-        let v = Real::min(place.uv[1], f32::ONE_MINUS_EPSILON);
-        solid_angle_density(distribution.pdf([x, v]), place.sin_theta)
+        let pdf = distribution.pdf([x, Real::min(v, f32::ONE_MINUS_EPSILON)]);
+        (self.at([u, v]), solid_angle_density(pdf, sin_theta))
     }
 
     #[inline]
@@ -160,6 +178,11 @@ impl EnvironmentLight {
         // The angle from sine and cosine: near the poles the arc cosine knows half the digits only.
         let v = Real::atan2(sin_theta, d.y) * f32::FRAC_1_PI;
         Some(Place { uv: [u, v], sin_theta })
+    }
+
+    /// Share of the light that is brighter than the mean, by as much as it is brighter, in [0, 1].
+    pub(crate) fn excess(&self) -> f32 {
+        self.excess
     }
 
     /// Power through a sphere: Φ = π R² ∫ L dω, in W.
@@ -191,10 +214,22 @@ fn mean_luminance(image: &BitmapImage, column: u32, row: u32) -> f32 {
         + corner(right, row + 1))
 }
 
-/// Solid angle of a row of cells: `2π (cos θ₀ − cos θ₁)`.
-fn band(row: usize, rows: usize) -> f64 {
+/// Solid angle of a cell of a row: `2π (cos θ₀ − cos θ₁) / columns`.
+fn solid_angle(row: usize, [columns, rows]: [usize; 2]) -> f64 {
     let cosine = |row: usize| Real::cos(f64::PI * row as f64 / rows as f64);
-    2.0 * f64::PI * (cosine(row) - cosine(row + 1))
+    2.0 * f64::PI * (cosine(row) - cosine(row + 1)) / columns as f64
+}
+
+/// The share of its luminance for which a cell is drawn whatever the mean. Light samples alone thus find all light.
+const FLOOR: f64 = 1.0 / 256.0;
+
+/// What a cell is drawn for, relative to its solid angle.
+///
+/// ```text
+/// max(luminance − mean, luminance / 256)
+/// ```
+fn weight(luminance: f64, mean: f64) -> f64 {
+    (luminance - mean).max(FLOOR * luminance)
 }
 
 /// From a density over the unit square of the map to one over the sphere; 0 at the poles.

@@ -67,6 +67,16 @@ impl Light {
         }
     }
 
+    /// How much of an infinite light needs light samples, in [0, 1]: the share that is brighter than its mean over all directions. What
+    /// is even, scattered rays find as well. 1 for lights with a place, and for those that no scattered ray finds.
+    pub fn excess(&self) -> f32 {
+        match self {
+            Self::Constant(_) => 0.0,
+            Self::Environment(light) => light.excess(),
+            _ => 1.0,
+        }
+    }
+
     /// Where it is, of a light that is a single point.
     pub fn position(&self) -> Option<Vec3> {
         match self {

@@ -77,13 +77,14 @@ impl Scene {
         }
     }
 
-    /// Density per steradian with which [`sample_light`](Self::sample_light) draws a unit direction
-    /// for a light infinitely far away; 0 for every other light, and for a directional one.
-    pub fn light_pdf_escaped(&self, light: LightId, direction: Vec3) -> f32 {
+    /// Radiance from a unit direction of one light infinitely far away, and the density per steradian with which
+    /// [`sample_light`](Self::sample_light) draws that direction for it; nothing of every other light, and of a directional one.
+    #[inline]
+    pub fn escaped(&self, light: LightId, direction: Vec3) -> (Color, f32) {
         match self.lights.get(light.0 as usize) {
-            Some(Light::Constant(light)) => light.pdf(),
-            Some(Light::Environment(light)) => light.pdf(direction),
-            _ => 0.0,
+            Some(Light::Constant(light)) => (light.radiance, light.pdf()),
+            Some(Light::Environment(light)) => light.radiance_and_pdf(direction),
+            _ => (Color::black(), 0.0),
         }
     }
 

@@ -246,11 +246,11 @@ fn lights_without_surface_have_the_textbook_irradiance() {
     let sun = sample(2).expect("it is lit");
     assert_eq!((sun.direction, sun.target, sun.radiance), (Vec3::Z, None, two));
     let sky = sample(3).expect("it is lit");
-    assert_eq!(sky.density, Density::Continuous(scene.light_pdf_escaped(LightId(3), Vec3::X)));
+    assert_eq!(sky.density, Density::Continuous(scene.escaped(LightId(3), Vec3::X).1));
     assert_eq!(scene.background(sky.direction).r, 2.5);
     assert_eq!(scene.infinite_lights(), [LightId(2), LightId(3), LightId(4)]);
     assert_eq!(scene.finite_lights().len(), 3);
-    assert_eq!(scene.light_pdf_escaped(LightId(2), Vec3::Z), 0.0);
+    assert_eq!(scene.escaped(LightId(2), Vec3::Z), (Color::black(), 0.0));
     assert_eq!(sample(9), None);
 }
 

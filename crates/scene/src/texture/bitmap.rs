@@ -34,6 +34,10 @@ impl Wrap {
     /// The texel, of `size` in a row, that stands for the `index`-th.
     #[inline]
     pub(crate) fn apply(self, index: i32, size: u32) -> u32 {
+        // Most are within, and a division costs more than the rest of a look-up.
+        if (index as u32) < size {
+            return index as u32;
+        }
         let size = size as i32;
         let wrapped = match self {
             Self::Repeat => index.rem_euclid(size),

@@ -196,8 +196,21 @@ impl BitmapImage {
         let beside = |i: i32| [i, i.saturating_add(1)];
         let [left, right] = beside(column).map(|column| wrap[0].apply(column, self.width));
         let [above, below] = beside(row).map(|row| wrap[1].apply(row, self.height));
-        let between = |row| self.texel(left, row) * (1.0 - fx) + self.texel(right, row) * fx;
-        between(above) * (1.0 - fy) + between(below) * fy
+        let [above, below] = [above, below].map(|row| row as usize * self.width as usize);
+        let [left, right] = [left as usize, right as usize];
+        let mix = |texel: &dyn Fn(usize) -> Color| {
+            let between = |row| texel(row + left) * (1.0 - fx) + texel(row + right) * fx;
+            between(above) * (1.0 - fy) + between(below) * fy
+        };
+        // One choice of the format for all four.
+        match &self.texels {
+            Texels::Grey8 { texels, decode } => mix(&|i| Color::splat(decode[texels[i] as usize])),
+            Texels::Rgb8 { texels, decode } => {
+                mix(&|i| Color::from(texels[i].map(|byte| decode[byte as usize])))
+            }
+            Texels::Grey(texels) => mix(&|i| Color::splat(texels[i])),
+            Texels::Rgb(texels) => mix(&|i| Color::from(texels[i])),
+        }
     }
 
     /// How [`bilinear`](Self::bilinear) changes with `x` and with `y`, per texel.

@@ -1,12 +1,18 @@
 //! Drawing the picture and its layers.
 
+use std::any::Any;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::{Mutex, PoisonError};
+use std::thread;
 use std::time::{Duration, Instant};
 
-use etendue_renderer::progressive::{Advance, Goal, Halt, ImageError, Round};
-use etendue_renderer::{Configuration, Image, RenderSettings, Renderer, Statistics};
+use etendue_renderer::progressive::{Advance, Goal, Halt, ImageError, ProgressiveState, Round};
+use etendue_renderer::{Accumulation, Configuration, Image, RenderSettings, Renderer, Statistics};
 use etendue_scene::Scene;
 
+use super::storage::Storage;
 use super::task::{Method, Task};
+use crate::checkpoint::{Header, Keeper, State};
 use crate::clock::processor_seconds;
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
@@ -24,6 +30,12 @@ pub(super) struct Drawing {
     pub(super) processor_seconds: Option<f64>,
     /// Of a progressive render.
     pub(super) accuracy: Option<Accuracy>,
+    /// Of a plain render that is stored.
+    pub(super) sums: Option<Accumulation>,
+    /// That the last checkpoint could not be written.
+    pub(super) trouble: Option<Failure>,
+    /// How a thread that rendered has failed; the picture is what it left.
+    pub(super) panic: Option<Box<dyn Any + Send>>,
 }
 
 /// Whether all that was asked for is there.
@@ -44,7 +56,14 @@ pub(super) struct Accuracy {
 }
 
 /// Draws the layers that show what is seen, and then the picture.
-pub(super) fn draw(task: &Task, scene: &Scene, interrupt: &Interrupt) -> Result<Drawing, Failure> {
+///
+/// * `storage`: of a render that is stored, what there is of it.
+pub(super) fn draw(
+    task: &Task,
+    scene: &Scene,
+    interrupt: &Interrupt,
+    storage: Option<Storage>,
+) -> Result<Drawing, Failure> {
     let start = Instant::now();
     let settings = RenderSettings { threads: task.threads, ..RenderSettings::of_scene(scene) };
     let before = processor_seconds();
@@ -56,14 +75,33 @@ pub(super) fn draw(task: &Task, scene: &Scene, interrupt: &Interrupt) -> Result<
         Vec::new()
     };
     let progress = ProgressDisplay::new("rendering", task.quiet);
-    let (mut drawing, variance, samples) = match task.method {
-        method @ (Method::Plain | Method::Reuse) => {
-            let drawing = plain(&renderer, method, interrupt, &progress);
+    let (state, kept) = match storage {
+        Some(Storage { keeper, header, state, .. }) => {
+            let configuration = renderer.configuration().name().to_owned();
+            let header = Header { configuration, ..header };
+            (Some(state), Kept { keeper, header })
+        }
+        None => (None, Kept::default()),
+    };
+    let (mut drawing, variance, samples) = match (task.method, state) {
+        (Method::Progressive { goal, time }, state) => {
+            let state = match state {
+                Some(State::Progressive(state)) => state,
+                _ => ProgressiveState::new(scene.film.crop, goal.allocation),
+            };
+            // What a render that goes on has used of its time is used.
+            let used = kept.header.rendered_for();
+            let time = time.map(|time| time.saturating_sub(used));
+            let limits = Limits { goal, time, start };
+            progressive(&renderer, state, &limits, kept, interrupt, &progress)
+        }
+        (_, Some(State::Plain(sums))) => {
+            let drawing = accumulated(&renderer, sums, kept, interrupt, &progress);
             (drawing, Image::black([0, 0]), Vec::new())
         }
-        Method::Progressive { goal, time } => {
-            let limits = Limits { goal, time, start };
-            progressive(&renderer, &limits, interrupt, &progress)
+        (method, _) => {
+            let drawing = plain(&renderer, method, interrupt, &progress);
+            (drawing, Image::black([0, 0]), Vec::new())
         }
     };
     progress.finish();
@@ -72,6 +110,33 @@ pub(super) fn draw(task: &Task, scene: &Scene, interrupt: &Interrupt) -> Result<
     let sources = Sources { features: &features, variance: &variance, samples: &samples };
     drawing.layers = task.layers.iter().flat_map(|&aov| sources.channels(aov)).collect();
     Ok(drawing)
+}
+
+/// Where a render is kept, if anywhere.
+#[derive(Default)]
+struct Kept {
+    keeper: Option<Keeper>,
+    header: Header,
+}
+
+impl Kept {
+    /// Does a piece of work, with checkpoints if there is a keeper of them. How the work panicked, and whether the last checkpoint could be
+    /// written.
+    fn work(
+        self,
+        snapshot: &(dyn Fn() -> State + Sync),
+        work: impl FnOnce(),
+    ) -> (thread::Result<()>, Result<(), Failure>) {
+        match self.keeper {
+            Some(mut keeper) => keeper.keep(&self.header, snapshot, work),
+            None => (catch_unwind(AssertUnwindSafe(work)), Ok(())),
+        }
+    }
+}
+
+/// A copy of what threads share. A poisoned lock means that one has panicked between two changes.
+fn copy<T: Clone>(shared: &Mutex<T>) -> T {
+    shared.lock().unwrap_or_else(PoisonError::into_inner).clone()
 }
 
 /// A picture without an estimate of its error.
@@ -84,10 +149,15 @@ fn plain(
     let report = |now: etendue_renderer::Progress| {
         progress.update(Standing::parts(now.finished, now.total));
     };
-    let rendering = match method {
-        Method::Reuse => renderer.render_with_reuse(&report, interrupt.flag()),
-        _ => renderer.render(&report, interrupt.flag()),
-    };
+    let rendering = Mutex::new(renderer.nothing_rendered());
+    let outcome = catch_unwind(AssertUnwindSafe(|| match method {
+        Method::Reuse => {
+            let shared = renderer.render_with_reuse(&report, interrupt.flag());
+            *rendering.lock().unwrap_or_else(PoisonError::into_inner) = shared;
+        }
+        _ => renderer.render_onto(&rendering, &report, interrupt.flag()),
+    }));
+    let rendering = rendering.into_inner().unwrap_or_else(PoisonError::into_inner);
     let etendue_renderer::Progress { finished, total } = rendering.progress;
     let whole = if finished == total {
         Whole::Yes
@@ -105,13 +175,53 @@ fn plain(
         whole,
         processor_seconds: None,
         accuracy: None,
+        sums: None,
+        trouble: None,
+        panic: outcome.err(),
+    }
+}
+
+/// A picture without an estimate of its error that goes on from what there is and is stored.
+fn accumulated(
+    renderer: &Renderer<'_>,
+    sums: Accumulation,
+    kept: Kept,
+    interrupt: &Interrupt,
+    progress: &ProgressDisplay,
+) -> Drawing {
+    let work = Mutex::new(sums);
+    let report = |fraction| progress.update(Standing { fraction, error: None });
+    let (outcome, saved) = kept.work(&|| State::Plain(copy(&work)), || {
+        renderer.accumulate(&work, &report, interrupt.flag());
+    });
+    let sums = copy(&work);
+    let whole = if sums.is_whole() {
+        Whole::Yes
+    } else if sums.least() > 0 {
+        Whole::WithFewerSamples
+    } else {
+        Whole::BlackInParts
+    };
+    Drawing {
+        image: sums.image(),
+        layers: Vec::new(),
+        statistics: sums.statistics(),
+        configuration: renderer.configuration(),
+        whole,
+        processor_seconds: None,
+        accuracy: None,
+        sums: Some(sums),
+        trouble: saved.err(),
+        panic: outcome.err(),
     }
 }
 
 /// The picture, its variance and its samples.
 fn progressive(
     renderer: &Renderer<'_>,
+    state: ProgressiveState,
     limits: &Limits,
+    kept: Kept,
     interrupt: &Interrupt,
     progress: &ProgressDisplay,
 ) -> (Drawing, Image, Vec<u32>) {
@@ -125,10 +235,14 @@ fn progressive(
         }
     };
     let report = |now| progress.update(limits.standing(now));
-    let rendering = renderer.render_progressively(&limits.goal, &report, &halt);
+    let work = Mutex::new(state);
+    let (outcome, saved) = kept.work(&|| State::Progressive(copy(&work)), || {
+        renderer.continue_progressively(&work, &limits.goal, &report, &halt);
+    });
+    let rendering = copy(&work).rendering();
     let whole = match rendering.error {
         None => Whole::BlackInParts,
-        Some(_) if interrupt.requested() => Whole::WithFewerSamples,
+        Some(_) if interrupt.requested() || outcome.is_err() => Whole::WithFewerSamples,
         Some(_) => Whole::Yes,
     };
     let drawing = Drawing {
@@ -139,6 +253,9 @@ fn progressive(
         whole,
         processor_seconds: None,
         accuracy: Some(Accuracy { error: rendering.error, rounds: rendering.rounds }),
+        sums: None,
+        trouble: saved.err(),
+        panic: outcome.err(),
     };
     (drawing, rendering.variance, rendering.samples)
 }

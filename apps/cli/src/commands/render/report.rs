@@ -73,8 +73,9 @@ impl Report<'_> {
             seed: sampling.seed,
             seconds: self.render_seconds,
             non_finite: self.non_finite(),
-            configuration: self.drawing.configuration.name(),
+            configuration: self.drawing.configuration.name().to_owned(),
             error: self.error(),
+            part: None,
         }
     }
 

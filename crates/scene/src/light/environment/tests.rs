@@ -18,6 +18,10 @@ fn turned() -> Transform {
     rotation.compose(&mirror).expect("a regular map")
 }
 
+fn pdf(light: &EnvironmentLight, direction: Vec3) -> f32 {
+    light.radiance_and_pdf(direction).1
+}
+
 /// A grid of stratified uniforms.
 fn uniforms(n: u16) -> impl Iterator<Item = [f32; 2]> {
     let at = move |i| (f32::from(i) + 0.5) / f32::from(n);
@@ -60,7 +64,8 @@ fn samples_agree_with_radiance_and_density() {
         // A turn to world space and back loses 1e-6 in the angles; a texel's contrast is up to 3.
         let found = light.radiance(sample.direction);
         assert!((found.r - sample.radiance.r).abs() < 2e-5, "{u:?} {found:?} {sample:?}");
-        let again = light.pdf(sample.direction);
+        let (radiance, again) = light.radiance_and_pdf(sample.direction);
+        assert_eq!(radiance, found);
         // The same, relative, near a pole where the density goes with 1/sin θ.
         if (again / pdf - 1.0).abs() > 1e-3 {
             elsewhere += 1;
@@ -80,7 +85,7 @@ fn the_density_integrates_to_one() {
         let (sin_theta, cos_theta) = Real::sin_cos(f32::PI * v);
         let local = Vec3::new(sin_phi * sin_theta, cos_theta, -cos_phi * sin_theta);
         let jacobian = 2.0 * f32::PI * f32::PI * sin_theta;
-        f64::from(light.pdf(turned().vector(local)) * jacobian)
+        f64::from(pdf(&light, turned().vector(local)) * jacobian)
     };
     let integral = uniforms(n).map(share).sum::<f64>() / f64::from(n * n);
     // The rounding of angles is 3·10⁻⁶ of the smallest sine on the grid.
@@ -88,16 +93,44 @@ fn the_density_integrates_to_one() {
 }
 
 #[test]
-fn the_mean_of_inverse_densities_is_the_sphere() {
+fn the_mean_direction_of_samples_is_that_of_the_density() {
     let light = light(&Transform::IDENTITY);
-    let inverse = |u| match light.sample(u).map(|s| s.density) {
-        Some(Density::Continuous(pdf)) => 1.0 / f64::from(pdf),
-        _ => 0.0,
-    };
     let n = 200;
-    let mean = uniforms(n).map(inverse).sum::<f64>() / f64::from(n * n);
-    // A midpoint rule whose integrand jumps by up to its size in one to four of 200 strata.
-    assert!((mean / (4.0 * f64::PI) - 1.0).abs() < 5e-3, "{mean}");
+    let scale = 1.0 / f64::from(n).sqr();
+    let drawn: DVec3 =
+        uniforms(n).filter_map(|u| light.sample(u)).map(|s| s.direction.as_dvec3()).sum();
+    // Over equal solid angles: heights are evenly spread.
+    let expected: DVec3 = uniforms(n)
+        .map(|[u, height]| {
+            let (sine, cosine) = Real::sin_cos(2.0 * f32::PI * u);
+            let y = 1.0 - 2.0 * height;
+            let radius = Real::sqrt(1.0 - y * y);
+            let direction = Vec3::new(sine * radius, y, -cosine * radius);
+            direction.as_dvec3() * (4.0 * f64::PI * f64::from(pdf(&light, direction)))
+        })
+        .sum();
+    // Midpoint rules; the second has a jump of up to the density itself in four of 200 columns and one of 200 rows.
+    let difference = (drawn - expected) * scale;
+    assert!(difference.length() < 0.02, "{difference} of {}", drawn * scale);
+    assert!((drawn * scale).length() > 0.2, "a direction that is preferred: {}", drawn * scale);
+}
+
+#[test]
+fn what_is_no_brighter_than_the_mean_is_left_to_scattering() {
+    // One texel of 1000 among 1: all but a few samples go to the four cells around it.
+    let mut texels = [1.0; 64 * 33];
+    texels[20 * 64 + 30] = 1000.0;
+    let image = BitmapImage::from_f32(64, 33, 1, &texels).expect("texels");
+    let light = EnvironmentLight::new(image, Transform::IDENTITY, 1.0).expect("a valid light");
+    let bright =
+        uniforms(100).filter_map(|u| light.sample(u)).filter(|s| s.radiance.r > 1.0).count();
+    assert!(bright > 9_900, "{bright}");
+    // 1000/2048 · π/2 · sin(5π/8) = 0.71 against 1, of which the mean on four cells is nothing.
+    assert!((light.excess() - 0.415).abs() < 0.005, "{}", light.excess());
+    let even = BitmapImage::from_f32(5, 4, 1, &[0.25; 20]).expect("twenty texels");
+    let even = EnvironmentLight::new(even, Transform::IDENTITY, 2.0).expect("a valid light");
+    assert!(even.excess() < 0.01);
+    assert_eq!(uniforms(10).filter_map(|u| even.sample(u)).count(), 100);
 }
 
 #[test]
@@ -117,7 +150,7 @@ fn odd_maps_work_or_are_refused() {
     };
     let black = with(2, 2, &[0.0; 4]);
     assert_eq!(black.sample([0.5; 2]), None);
-    assert_eq!((black.pdf(Vec3::X), black.power(1.0)), (0.0, 0.0));
+    assert_eq!((pdf(&black, Vec3::X), black.power(1.0)), (0.0, 0.0));
     let single = with(1, 1, &[3.0]);
     assert_eq!(single.radiance(Vec3::new(0.0, 0.6, -0.8)).r, 3.0);
     assert!(single.sample([0.3; 2]).is_some());

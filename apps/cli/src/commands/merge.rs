@@ -1,0 +1,170 @@
+//! `etendue merge`: from the parts of a render to its picture.
+
+use core::ops::Range;
+use std::path::{Path, PathBuf};
+
+use etendue_renderer::Accumulation;
+
+use super::render::part;
+use super::values::exposure;
+use crate::checkpoint::{Header, Shard, State, Stored};
+use crate::failure::{Exit, Failure};
+use crate::output::{Encoding, Metadata, Output, Precision};
+use crate::progress::Quiet;
+
+/// Joins the parts that `etendue render --shard` drew, in any order, to the picture of a render in one go, bit by bit.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Arguments {
+    /// The parts: all of one render, each once.
+    #[arg(required = true, value_name = "PART")]
+    parts: Vec<PathBuf>,
+    /// The picture to write; its extension chooses the format: exr, hdr, pfm (linear), png (sRGB).
+    #[arg(short, long, value_name = "FILE")]
+    output: PathBuf,
+    /// Brighten 8-bit pictures by this many stops.
+    #[arg(long, value_name = "STOPS", default_value_t = 0.0, value_parser = exposure, allow_hyphen_values = true)]
+    exposure: f32,
+    /// Sample type of EXR pictures.
+    #[arg(long, value_name = "TYPE", default_value = "float")]
+    precision: Precision,
+    #[command(flatten)]
+    quiet: Quiet,
+}
+
+/// A part and where it was read.
+struct Part {
+    path: PathBuf,
+    header: Header,
+    sums: Accumulation,
+}
+
+impl Part {
+    fn read(path: &Path) -> Result<Self, Failure> {
+        let Stored { header, state } = part(path)?;
+        let State::Plain(sums) = state else {
+            let path = path.display();
+            return Err(Failure::usage(format!("{path}: rounds of a render cannot be joined")));
+        };
+        let part = Self { path: path.to_path_buf(), header, sums };
+        if !part.sums.is_whole() {
+            return Err(part.refuse("the part is not whole; the command that drew it finishes it"));
+        }
+        Ok(part)
+    }
+
+    fn refuse(&self, message: &str) -> Failure {
+        Failure::usage(format!("{}: {message}", self.path.display()))
+    }
+
+    /// That two parts are of one render.
+    fn check_same_render(&self, first: &Self) -> Result<(), Failure> {
+        let [then, now] = [self, first].map(|part| part.header.samples_per_pixel);
+        let difference = match self.header.identity.difference(&first.header.identity) {
+            None if then != now => Some(format!("it was made with --spp {then}, now it is {now}")),
+            difference => difference,
+        };
+        difference.map_or(Ok(()), |difference| {
+            let first = first.path.display();
+            Err(self
+                .refuse(&format!("the part is not of the same render as {first}: {difference}")))
+        })
+    }
+}
+
+pub(crate) fn run(arguments: &Arguments) -> Result<Exit, Failure> {
+    let output = Output::check(&arguments.output)?;
+    let mut parts =
+        arguments.parts.iter().map(|path| Part::read(path)).collect::<Result<Vec<_>, _>>()?;
+    if let [first, others @ ..] = &parts[..] {
+        others.iter().try_for_each(|part| part.check_same_render(first))?;
+    }
+    parts.sort_by_key(|part| part.sums.samples().start);
+    check_ranges(&parts)?;
+    let header = parts[0].header.clone();
+    let seconds = parts.iter().map(|part| part.header.seconds).sum();
+    let sums = parts.into_iter().map(|part| part.sums).reduce(|all, sums| {
+        // Ranges that have been checked fit.
+        all.joined(&sums).unwrap_or(all)
+    });
+    let Some(sums) = sums else { return Err(Failure::usage("there are no parts")) };
+    let statistics = sums.statistics();
+    let metadata = Metadata {
+        scene: header.scene.clone(),
+        samples_per_pixel: f64::from(header.samples_per_pixel),
+        samples: statistics.samples,
+        seed: header.identity.setting("--seed").and_then(|seed| seed.parse().ok()).unwrap_or(0),
+        seconds,
+        non_finite: statistics.non_finite.count(),
+        configuration: header.configuration.clone(),
+        error: None,
+        part: None,
+    };
+    let encoding = Encoding { precision: arguments.precision, exposure: arguments.exposure };
+    output.write_or_rescue(&sums.image(), &[], encoding, &metadata, None)?;
+    if !arguments.quiet.quiet {
+        eprintln!(
+            "etendue: {} of {} parts, {} samples, {} rays",
+            output.path().display(),
+            arguments.parts.len(),
+            statistics.samples,
+            statistics.rays.total()
+        );
+    }
+    Ok(Exit::Done)
+}
+
+/// That the ranges of parts in order cover all samples once.
+fn check_ranges(parts: &[Part]) -> Result<(), Failure> {
+    for pair in parts.windows(2) {
+        let [a, b] = [&pair[0], &pair[1]].map(|part| part.sums.samples());
+        if b.start < a.end {
+            let both = named(&(b.start..a.end.min(b.end)));
+            return Err(pair[1].refuse(&format!(
+                "the part overlaps with {}: both hold the samples {both}",
+                pair[0].path.display()
+            )));
+        }
+    }
+    let Some(Header { samples_per_pixel, shard, .. }) = parts.first().map(|part| &part.header)
+    else {
+        return Ok(());
+    };
+    let mut missing = Vec::new();
+    let mut end = 0;
+    let ranges = parts.iter().map(|part| part.sums.samples());
+    let behind_all = core::iter::once(*samples_per_pixel..*samples_per_pixel);
+    for range in ranges.chain(behind_all) {
+        if end < range.start {
+            missing.push(missing_parts(&(end..range.start), *samples_per_pixel, *shard));
+        }
+        end = range.end;
+    }
+    if missing.is_empty() {
+        return Ok(());
+    }
+    Err(Failure::usage(format!("parts of the render are missing: {}", missing.join(", "))))
+}
+
+/// What a range of samples is called: by the parts that make it up where the division is known, by its numbers otherwise.
+fn missing_parts(range: &Range<u32>, samples_per_pixel: u32, shard: Option<Shard>) -> String {
+    let count = shard.map_or(1, |shard| shard.count);
+    let shards: Vec<Shard> = (1..=count)
+        .map(|index| Shard { index, count })
+        .filter(|shard| {
+            let part = shard.samples(samples_per_pixel);
+            !part.is_empty() && range.start <= part.start && part.end <= range.end
+        })
+        .collect();
+    let covered = shards.first().map(|s| s.samples(samples_per_pixel).start) == Some(range.start)
+        && shards.last().map(|s| s.samples(samples_per_pixel).end) == Some(range.end);
+    if covered {
+        let names: Vec<String> = shards.iter().map(|shard| format!("--shard {shard}")).collect();
+        names.join(", ")
+    } else {
+        format!("the samples {}", named(range))
+    }
+}
+
+fn named(range: &Range<u32>) -> String {
+    format!("{} to {}", range.start, range.end - 1)
+}

@@ -1,0 +1,206 @@
+//! What a plain render knows.
+
+use alloc::sync::Arc;
+use core::ops::Range;
+
+use etendue_scene::Color;
+use etendue_scene::film::Crop;
+
+use super::packed::{LEAST, PackedTile};
+use super::pixel::PixelMoments;
+use crate::codec::{Reader, StateError, Write as _};
+use crate::film::Image;
+use crate::statistics::Statistics;
+use crate::tile::Tile;
+
+/// The sums of all pixels of a crop over a range of the samples, as far as they have been drawn.
+///
+/// To clone it is cheap: the tiles are shared.
+///
+/// # Examples
+/// ```
+/// use etendue_renderer::Accumulation;
+/// use etendue_scene::film::Crop;
+///
+/// let crop = Crop { offset: [0, 0], size: [20, 10] };
+/// let nothing = Accumulation::new(crop, 0..64);
+/// assert_eq!((nothing.is_whole(), nothing.fraction()), (false, 0.0));
+/// let mut bytes = Vec::new();
+/// nothing.encode(&mut bytes);
+/// assert_eq!(Accumulation::decode(&bytes)?, nothing);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Accumulation {
+    crop: Crop,
+    samples: Range<u32>,
+    /// In the order of [`Tile::cover`].
+    tiles: Vec<Arc<PackedTile>>,
+    /// Samples per pixel of all tiles together.
+    drawn: u64,
+}
+
+impl Accumulation {
+    /// No samples yet of the range that is to be drawn.
+    pub fn new(crop: Crop, samples: Range<u32>) -> Self {
+        let nothing = Arc::new(PackedTile::default());
+        let tiles = vec![nothing; Tile::count(&crop) as usize];
+        Self { crop, samples, tiles, drawn: 0 }
+    }
+
+    /// The part of the film.
+    pub fn crop(&self) -> Crop {
+        self.crop
+    }
+
+    /// The samples of every pixel that are to be drawn: indices of the one sequence that the seed determines.
+    pub fn samples(&self) -> Range<u32> {
+        self.samples.clone()
+    }
+
+    /// Has more samples drawn: up to `end`, but no fewer than were to be.
+    pub fn extend_to(&mut self, end: u32) {
+        self.samples.end = self.samples.end.max(end);
+    }
+
+    /// Whether all samples of the range have been drawn.
+    pub fn is_whole(&self) -> bool {
+        self.least() == self.wanted()
+    }
+
+    /// Samples that every pixel has.
+    pub fn least(&self) -> u32 {
+        self.tiles.iter().map(|tile| tile.drawn()).min().unwrap_or(self.wanted())
+    }
+
+    /// The part of the samples that has been drawn, from 0 to 1.
+    pub fn fraction(&self) -> f64 {
+        let all = self.tiles.len() as u64 * u64::from(self.wanted());
+        if all == 0 { 1.0 } else { self.drawn as f64 / all as f64 }
+    }
+
+    /// Samples per pixel of the range.
+    pub(super) fn wanted(&self) -> u32 {
+        self.samples.end.saturating_sub(self.samples.start)
+    }
+
+    pub(super) fn tile(&self, index: usize) -> Arc<PackedTile> {
+        Arc::clone(&self.tiles[index])
+    }
+
+    pub(super) fn replace(&mut self, index: usize, tile: PackedTile) {
+        self.drawn += u64::from(tile.drawn());
+        let before = core::mem::replace(&mut self.tiles[index], Arc::new(tile));
+        self.drawn -= u64::from(before.drawn());
+    }
+
+    /// The means of the pixels; those without samples are black.
+    pub fn image(&self) -> Image {
+        self.map(PixelMoments::mean)
+    }
+
+    /// The means of the squares of the samples, channel by channel.
+    pub fn second_moments(&self) -> Image {
+        self.map(PixelMoments::mean_square)
+    }
+
+    /// Number of samples of each pixel that count, row by row.
+    pub fn counts(&self) -> Vec<u32> {
+        let mut counts = vec![0; self.crop.size.map(|n| n as usize).iter().product()];
+        self.visit(|[x, y], pixel| {
+            counts[y as usize * self.crop.size[0] as usize + x as usize] = pixel.count;
+        });
+        counts
+    }
+
+    /// What was done.
+    pub fn statistics(&self) -> Statistics {
+        let mut all = Statistics::default();
+        for tile in &self.tiles {
+            all.merge(tile.statistics());
+        }
+        all
+    }
+
+    fn map(&self, f: impl Fn(&PixelMoments) -> Color) -> Image {
+        let mut image = Image::black(self.crop.size);
+        self.visit(|position, pixel| image.set(position, f(pixel)));
+        image
+    }
+
+    /// Calls a function with every pixel and its place in the crop.
+    fn visit(&self, mut f: impl FnMut([u32; 2], &PixelMoments)) {
+        for (tile, packed) in Tile::cover(&self.crop).into_iter().zip(&self.tiles) {
+            for (pixel, moments) in tile.pixels().zip(packed.unpack()) {
+                f([0, 1].map(|axis| pixel[axis] - self.crop.offset[axis]), &moments);
+            }
+        }
+    }
+
+    /// The samples of two neighbouring ranges together; `None` where the crops differ, a range is not whole, or one does not end where the
+    /// other begins. The result does not depend on which is which.
+    pub fn joined(&self, other: &Self) -> Option<Self> {
+        let (first, last) =
+            if self.samples.start <= other.samples.start { (self, other) } else { (other, self) };
+        let fits = first.crop == last.crop
+            && first.samples.end == last.samples.start
+            && first.is_whole()
+            && last.is_whole();
+        fits.then(|| {
+            let samples = first.samples.start..last.samples.end;
+            let tiles =
+                Tile::cover(&first.crop).into_iter().zip(first.tiles.iter().zip(&last.tiles));
+            let tiles = tiles.map(|(tile, (a, b))| {
+                let mut pixels: Vec<PixelMoments> =
+                    tile.pixels().zip(a.unpack()).map(|(_, pixel)| pixel).collect();
+                for (pixel, more) in pixels.iter_mut().zip(b.unpack()) {
+                    pixel.merge(&more);
+                }
+                let mut statistics = a.statistics().clone();
+                statistics.merge(b.statistics());
+                Arc::new(PackedTile::new(a.drawn() + b.drawn(), &pixels, statistics))
+            });
+            let drawn = first.drawn + last.drawn;
+            Self { crop: first.crop, samples, tiles: tiles.collect(), drawn }
+        })
+    }
+
+    /// Adds the bytes that [`decode`](Self::decode) reads. They carry no checksum and no version; whoever stores them adds both.
+    pub fn encode(&self, bytes: &mut Vec<u8>) {
+        let Crop { offset, size } = self.crop;
+        for number in [offset, size, [self.samples.start, self.samples.end]].as_flattened() {
+            bytes.u32(*number);
+        }
+        for tile in &self.tiles {
+            tile.write(bytes);
+        }
+    }
+
+    /// Reads what [`encode`](Self::encode) has written.
+    ///
+    /// # Errors
+    /// Any other bytes that do not happen to be a render. Memory is in proportion to their number, whatever they declare.
+    pub fn decode(bytes: &[u8]) -> Result<Self, StateError> {
+        let mut reader = Reader::new(bytes);
+        let [mut offset, mut size, mut range] = [[0; 2]; 3];
+        for number in [&mut offset, &mut size, &mut range].into_iter().flatten() {
+            *number = reader.u32()?;
+        }
+        let crop = Crop { offset, size };
+        if (0..2).any(|axis| offset[axis].checked_add(size[axis]).is_none()) || range[0] > range[1]
+        {
+            return Err(StateError::new("its part of the film or its samples cannot be"));
+        }
+        let samples = range[0]..range[1];
+        if Tile::count(&crop).saturating_mul(LEAST as u64) > reader.left() as u64 {
+            return Err(StateError::new("it is cut short"));
+        }
+        let tiles = Tile::cover(&crop)
+            .into_iter()
+            .map(|tile| PackedTile::read(&mut reader, tile, range[1] - range[0]).map(Arc::new));
+        let tiles = tiles.collect::<Result<Vec<_>, _>>()?;
+        reader.end()?;
+        let drawn = tiles.iter().map(|tile| u64::from(tile.drawn())).sum();
+        Ok(Self { crop, samples, tiles, drawn })
+    }
+}

@@ -1,0 +1,99 @@
+//! Numbers to bytes and back, for renders that are stored. Little-endian; nothing is read that is not there.
+
+use core::fmt;
+
+/// Bytes that are no stored render: cut short, or with values that no render has.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct StateError {
+    what: &'static str,
+}
+
+impl StateError {
+    pub(crate) fn new(what: &'static str) -> Self {
+        Self { what }
+    }
+}
+
+impl fmt::Display for StateError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "not a stored render: {}", self.what)
+    }
+}
+
+impl core::error::Error for StateError {}
+
+/// What is left to read.
+#[derive(Clone, Debug)]
+pub(crate) struct Reader<'b> {
+    rest: &'b [u8],
+}
+
+impl<'b> Reader<'b> {
+    pub(crate) fn new(bytes: &'b [u8]) -> Self {
+        Self { rest: bytes }
+    }
+
+    /// Number of bytes left: what a declared count is checked against before memory is taken for it.
+    pub(crate) fn left(&self) -> usize {
+        self.rest.len()
+    }
+
+    pub(crate) fn bytes(&mut self, count: usize) -> Result<&'b [u8], StateError> {
+        let (taken, rest) =
+            self.rest.split_at_checked(count).ok_or(StateError::new("it is cut short"))?;
+        self.rest = rest;
+        Ok(taken)
+    }
+
+    fn array<const N: usize>(&mut self) -> Result<[u8; N], StateError> {
+        let mut array = [0; N];
+        array.copy_from_slice(self.bytes(N)?);
+        Ok(array)
+    }
+
+    pub(crate) fn u8(&mut self) -> Result<u8, StateError> {
+        self.array().map(u8::from_le_bytes)
+    }
+
+    pub(crate) fn bool(&mut self) -> Result<bool, StateError> {
+        match self.u8()? {
+            0 => Ok(false),
+            1 => Ok(true),
+            _ => Err(StateError::new("a choice is neither yes nor no")),
+        }
+    }
+
+    pub(crate) fn u32(&mut self) -> Result<u32, StateError> {
+        self.array().map(u32::from_le_bytes)
+    }
+
+    pub(crate) fn u64(&mut self) -> Result<u64, StateError> {
+        self.array().map(u64::from_le_bytes)
+    }
+
+    /// That nothing is left.
+    pub(crate) fn end(&self) -> Result<(), StateError> {
+        if self.rest.is_empty() { Ok(()) } else { Err(StateError::new("bytes are left over")) }
+    }
+}
+
+/// Adds numbers to bytes.
+pub(crate) trait Write {
+    fn u8(&mut self, x: u8);
+    fn u32(&mut self, x: u32);
+    fn u64(&mut self, x: u64);
+}
+
+impl Write for Vec<u8> {
+    fn u8(&mut self, x: u8) {
+        self.push(x);
+    }
+
+    fn u32(&mut self, x: u32) {
+        self.extend_from_slice(&x.to_le_bytes());
+    }
+
+    fn u64(&mut self, x: u64) {
+        self.extend_from_slice(&x.to_le_bytes());
+    }
+}
