@@ -52,6 +52,7 @@
 //! | [`Strategy`] | how light is found: both ways, or one of them |
 //! | [`Renderer::render_with_reuse`] | what neighbouring paths lend each other, how many samples a pixel is worth |
 //! | [`Accumulation`] | what a render knows that is stopped, stored, continued, divided and joined |
+//! | [`Renderer::replay`] | what happened along the path of one sample |
 //! | [`progressive`] | how many samples a pixel gets, when a picture is accurate enough |
 //! | [`Features`] | what pixels show, for compositing and denoising |
 //! | [`image_metrics`] | how far two pictures are apart |
@@ -76,6 +77,7 @@ mod pilot;
 pub mod progressive;
 mod render;
 mod renderer_error;
+mod replay;
 mod settings;
 mod statistics;
 mod tile;
@@ -88,6 +90,7 @@ pub use film::{FilmSample, FilterSampler, Image, PixelFilter, PixelSum};
 pub use light_sampler::{LightChoice, LightSampler, Receiver, Sides};
 pub use render::{Progress, Renderer, Rendering};
 pub use renderer_error::RendererError;
+pub use replay::{Found, Replay, Step, TracedRay};
 pub use settings::{Airlight, RenderSettings, Strategy};
 pub use statistics::{NonFiniteSamples, RayCounts, SampleAddress, Statistics};
 

@@ -16,6 +16,7 @@ use crate::film::{FilterSampler, Image, PixelFilter};
 use crate::light_sampler::{LightSampler, PointLights};
 use crate::path::{Carried, PathTracer, Prepared, Transport};
 use crate::renderer_error::RendererError;
+use crate::replay::OneSample;
 use crate::settings::{Airlight, RenderSettings};
 use crate::statistics::{RayCounts, SampleAddress, Statistics};
 use crate::tile::Tile;
@@ -150,7 +151,8 @@ impl<'a> Renderer<'a> {
     /// The radiance of one sample, weighted by the filter: what the picture's pixel is the mean of.
     /// `pixel` is a column and a row of the full film, `index` that of a [`SampleAddress`].
     pub fn sample(&self, pixel: [u32; 2], index: u64) -> Color {
-        self.configured(OneSample { renderer: self, pixel, index })
+        let settings = &self.settings;
+        self.configured(OneSample { renderer: self, settings, pixel, index, recorded: None })
     }
 
     /// Renders the given tiles, in this order.
@@ -250,7 +252,16 @@ impl<'a> Renderer<'a> {
     }
 
     pub(crate) fn tracer<C: Carried, R: Rays>(&self, rays: R) -> PathTracer<'_, 'a, R, C> {
-        let RenderSettings { path, strategy, .. } = self.settings;
+        self.tracer_with(rays, &self.settings)
+    }
+
+    /// The same for paths of other settings.
+    pub(crate) fn tracer_with<C: Carried, R: Rays>(
+        &self,
+        rays: R,
+        settings: &RenderSettings,
+    ) -> PathTracer<'_, 'a, R, C> {
+        let RenderSettings { path, strategy, .. } = *settings;
         let materials = C::materials(&self.materials);
         PathTracer::new(
             rays,
@@ -329,25 +340,6 @@ impl<'a> Renderer<'a> {
             [0.0; 2]
         };
         (camera.ray_at(film.position, lens, time), film.weight * camera.weight())
-    }
-}
-
-/// One sample, by itself.
-struct OneSample<'r, 'a> {
-    renderer: &'r Renderer<'a>,
-    pixel: [u32; 2],
-    index: u64,
-}
-
-impl Configured for OneSample<'_, '_> {
-    type Output = Color;
-
-    fn run<S: Sampler, T: Transport>(self) -> Color {
-        let Self { renderer, pixel, index } = self;
-        let points = S::at(renderer.settings.seed, pixel, index);
-        let filter = renderer.filter.pixel(pixel);
-        let tracer = renderer.tracer::<T::Channels, _>(renderer.scene.geometry.at(0.0));
-        renderer.path_sample::<S, T, _>(&tracer, &filter, &points, &mut RayCounts::default())
     }
 }
 

@@ -88,6 +88,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     });
     let Some(sums) = sums else { return Err(Failure::usage("there are no parts")) };
     let statistics = sums.statistics();
+    let first = statistics.non_finite.first().iter();
+    let bad = first.map(|at| format!("{},{},{}", at.column, at.row, at.sample));
     let metadata = Metadata {
         scene: header.scene.clone(),
         samples_per_pixel: f64::from(header.samples_per_pixel),
@@ -95,6 +97,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Exit, Failure> {
         seed: header.identity.setting("--seed").and_then(|seed| seed.parse().ok()).unwrap_or(0),
         seconds,
         non_finite: statistics.non_finite.count(),
+        first_non_finite: bad.collect(),
         configuration: header.configuration.clone(),
         error: None,
         part: None,

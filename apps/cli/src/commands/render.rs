@@ -1,6 +1,7 @@
 //! `etendue render`: from a scene to a picture.
 
 mod draw;
+mod replay;
 mod report;
 mod settings;
 mod storage;
@@ -11,7 +12,7 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use clap::Parser;
-use etendue_renderer::progressive;
+use etendue_renderer::{SampleAddress, progressive};
 use etendue_scene::film::Crop;
 use etendue_scene::{LoadOptions, SamplerKind};
 
@@ -39,8 +40,8 @@ pub(crate) struct Arguments {
     #[command(flatten)]
     selection: SelectionArguments,
     /// The picture to write; its extension chooses the format: exr, hdr, pfm (linear), png (sRGB).
-    #[arg(short, long, value_name = "FILE")]
-    output: PathBuf,
+    #[arg(short, long, value_name = "FILE", required_unless_present = "replay")]
+    output: Option<PathBuf>,
     /// Samples per pixel; with --error, --time or --allocation their mean over the picture, at most.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     spp: Option<u32>,
@@ -66,6 +67,10 @@ pub(crate) struct Arguments {
     /// again, an unfinished one is finished.
     #[arg(long, value_name = "I/N", value_parser = Shard::parse, conflicts_with_all = ["reuse", "error", "time", "allocation", "aov"])]
     shard: Option<Shard>,
+    /// Render nothing, but compute one sample of the same render again, and print its path ray by ray: column, row, number of the sample,
+    /// as the warning about samples that are not finite names them.
+    #[arg(long, value_name = "X,Y,S", value_parser = replay::address, conflicts_with_all = ["output", "reuse", "checkpoint", "shard"])]
+    replay: Option<SampleAddress>,
     /// Further layers of an EXR picture, separated by commas.
     #[arg(long, value_name = "LAYERS", value_delimiter = ',')]
     aov: Vec<Aov>,
@@ -161,6 +166,12 @@ struct StoredCommand {
 }
 
 pub(crate) fn run(arguments: &Arguments) -> Result<Exit, Failure> {
+    if let Some(address) = arguments.replay {
+        let mut loaded = load(&arguments.scene.scene, &arguments.load_options())?;
+        loaded.scene.path.spectral |= arguments.spectral;
+        let scene = arguments.selection.select(loaded.scene);
+        return replay::run(arguments, address, &scene, &loaded.origins);
+    }
     let stored = arguments.checkpoint.is_some() || arguments.shard.is_some();
     render(arguments, &if stored { Recipe::of_process()? } else { Recipe::default() })
 }
@@ -183,7 +194,8 @@ pub(crate) fn resume(
     let mut arguments = parsed.arguments;
     let changes = &recipe.changes;
     arguments.scene.scene = recipe.resolve(&arguments.scene.scene);
-    arguments.output = recipe.resolve(changes.output.as_ref().unwrap_or(&arguments.output));
+    let output = changes.output.as_ref().or(arguments.output.as_ref());
+    arguments.output = output.map(|output| recipe.resolve(output));
     arguments.spp = changes.spp.or(arguments.spp);
     arguments.error = changes.error.or(arguments.error);
     arguments.time = changes.time.or(arguments.time);
@@ -196,7 +208,9 @@ pub(crate) fn resume(
 }
 
 fn render(arguments: &Arguments, recipe: &Recipe) -> Result<Exit, Failure> {
-    let output = Output::check(&arguments.output)?;
+    let output =
+        arguments.output.as_deref().ok_or_else(|| Failure::usage("-o names no picture"))?;
+    let output = Output::check(output)?;
     if !arguments.aov.is_empty() {
         output.check_layers()?;
     }
@@ -247,7 +261,14 @@ fn render(arguments: &Arguments, recipe: &Recipe) -> Result<Exit, Failure> {
     if let Some(sums) = &part {
         drawing.layers = of_part(sums);
     }
-    let report = Report { render_seconds, build_seconds, drawing: &drawing };
+    let bad = drawing.statistics.non_finite.first();
+    // Paths that share are not those of a sample by itself.
+    let sources = if arguments.reuse || bad.is_empty() {
+        vec![None; bad.len()]
+    } else {
+        replay::sources(&scene, &loaded.origins, bad)
+    };
+    let report = Report { render_seconds, build_seconds, drawing: &drawing, sources: &sources };
     report.warn_of_bad_samples(scene.sampling.seed);
     report.warn_of_overflow();
 

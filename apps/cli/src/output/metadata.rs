@@ -17,6 +17,8 @@ pub(crate) struct Metadata {
     pub(crate) seconds: f64,
     /// Samples left out because they were NaN or infinite.
     pub(crate) non_finite: u64,
+    /// Column, row and number of the first of them, and where each comes from.
+    pub(crate) first_non_finite: Vec<String>,
     /// What was compiled in.
     pub(crate) configuration: String,
     /// The relative error of the picture, where it is known.
@@ -41,6 +43,9 @@ impl Metadata {
             ("etendue.non_finite", self.non_finite.to_string()),
             ("etendue.configuration", self.configuration.clone()),
         ];
+        if !self.first_non_finite.is_empty() {
+            entries.push(("etendue.first_non_finite", self.first_non_finite.join("; ")));
+        }
         if let Some(error) = self.error {
             entries.extend([
                 ("etendue.error", error.estimate.to_string()),

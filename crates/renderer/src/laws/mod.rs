@@ -13,6 +13,7 @@ mod health;
 mod media;
 mod motion;
 mod nesting;
+mod replay;
 mod reuse;
 mod scenes;
 mod spectral;

@@ -1,6 +1,7 @@
 //! What a finished render says about itself.
 
 use etendue_math::Spectrum;
+use etendue_renderer::SampleAddress;
 use etendue_renderer::progressive::{CONFIDENCE, ImageError, factor_for_half};
 use etendue_scene::Scene;
 use serde_json::{Value, json};
@@ -15,6 +16,8 @@ pub(super) struct Report<'a> {
     pub(super) render_seconds: f64,
     pub(super) build_seconds: f64,
     pub(super) drawing: &'a Drawing,
+    /// Where each of the first samples that are not finite comes from, if that is known.
+    pub(super) sources: &'a [Option<String>],
 }
 
 impl Report<'_> {
@@ -73,6 +76,13 @@ impl Report<'_> {
             seed: sampling.seed,
             seconds: self.render_seconds,
             non_finite: self.non_finite(),
+            first_non_finite: self
+                .bad_samples()
+                .map(|(SampleAddress { column, row, sample }, source)| match source {
+                    Some(source) => format!("{column},{row},{sample} from {source}"),
+                    None => format!("{column},{row},{sample}"),
+                })
+                .collect(),
             configuration: self.drawing.configuration.name().to_owned(),
             error: self.error(),
             part: None,
@@ -88,12 +98,19 @@ impl Report<'_> {
              with seed {seed}:",
             self.non_finite()
         );
-        for address in self.drawing.statistics.non_finite.first() {
-            eprintln!(
-                "etendue:   column {}, row {}, sample {}",
-                address.column, address.row, address.sample
-            );
+        for (address, source) in self.bad_samples() {
+            let SampleAddress { column, row, sample } = address;
+            let from = source.as_ref().map_or(String::new(), |source| format!(", from {source}"));
+            eprintln!("etendue:   column {column}, row {row}, sample {sample}{from}");
         }
+        eprintln!(
+            "etendue: the same command with --replay COLUMN,ROW,SAMPLE instead of -o shows the path of one"
+        );
+    }
+
+    /// The first samples that were not finite, and where they come from.
+    fn bad_samples(&self) -> impl Iterator<Item = (SampleAddress, &Option<String>)> {
+        self.drawing.statistics.non_finite.first().iter().copied().zip(self.sources)
     }
 
     pub(super) fn summary(&self, output: &Output) -> String {
@@ -139,6 +156,12 @@ impl Report<'_> {
             "mrays_per_second": self.mrays_per_second(),
             "peak_rss": peak_resident_bytes(),
             "non_finite": self.non_finite(),
+            "first_non_finite": self.bad_samples().map(|(address, source)| json!({
+                "column": address.column,
+                "row": address.row,
+                "sample": address.sample,
+                "from": source,
+            })).collect::<Vec<_>>(),
             "complete": self.drawing.whole == Whole::Yes,
             "error": self.error().map(|error| json!({
                 "estimate": error.estimate,
