@@ -14,7 +14,7 @@ cd "$(dirname "$0")/.."
 seconds=${1:-20}
 shift || true
 images=(png jpg bmp tga hdr exr pfm)
-loaders=(xml scene gltf obj mtl ply serialized vol "${images[@]}")
+loaders=(xml scene gltf obj mtl ply serialized curves vol "${images[@]}")
 names=()
 for name in "$@"; do
   if [ "$name" = loaders ]; then names+=("${loaders[@]}"); else names+=("$name"); fi
@@ -67,7 +67,7 @@ for name in "${names[@]}"; do
     xml | scene) attack "$name" "$name" 1048576 xml ;;
     obj | mtl | ply) attack "$name" "$name" 1048576 "$name" ;;
     gltf) attack gltf gltf 1048576 json ;;
-    serialized | vol) attack "$name" "$name" 1048576 ;;
+    serialized | curves | vol) attack "$name" "$name" 1048576 ;;
     png | jpg | bmp | tga | hdr | exr | pfm) KIND=$name attack "$name" image 1048576 ;;
     *) MODEL=$name attack "$name" models 256 ;;
   esac

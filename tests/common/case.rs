@@ -1,16 +1,35 @@
 //! Command lines on given files, with what must come of them.
 
-use super::{Folder, Outcome, scene};
+use std::fs;
+use std::path::Path;
+use std::time::Duration;
+
+use super::{Folder, Limits, Outcome, scene};
+
+/// What a name in the folder of a case stands for.
+#[derive(Clone, Debug)]
+pub(crate) enum Content {
+    File(Vec<u8>),
+    Folder,
+    /// A link to another name.
+    Link(&'static str),
+    /// A pipe that nobody writes to.
+    Pipe,
+}
 
 /// Files, a command line, and what must come of them.
 pub(crate) struct Case {
     pub(crate) what: &'static str,
-    pub(crate) files: Vec<(&'static str, Vec<u8>)>,
+    pub(crate) files: Vec<(&'static str, Content)>,
     pub(crate) arguments: Vec<&'static str>,
     pub(crate) exit: i32,
     /// What the error, or else the warnings, must contain.
     pub(crate) says: &'static [&'static str],
 }
+
+/// What a case may take: a hundred times what most take, so that a busy machine passes and what never ends, or takes whatever memory
+/// a file asks for, does not.
+const LIMITS: Limits = Limits { time: Duration::from_secs(30), memory: 1 << 30 };
 
 /// Renders `scene.xml`, which the case adds, at one sample per pixel.
 pub(crate) const RENDER: [&str; 6] = ["render", "scene.xml", "-o", "out.pfm", "--quiet", "--spp=1"];
@@ -55,9 +74,19 @@ impl Case {
         Self { arguments: RENDER_PLY.to_vec(), ..case }
     }
 
-    pub(crate) fn file(mut self, name: &'static str, content: impl Into<Vec<u8>>) -> Self {
-        self.files.push((name, content.into()));
+    pub(crate) fn file(self, name: &'static str, content: impl Into<Vec<u8>>) -> Self {
+        self.with_content(name, Content::File(content.into()))
+    }
+
+    /// Something that is no file, or a file.
+    pub(crate) fn with_content(mut self, name: &'static str, content: Content) -> Self {
+        self.files.push((name, content));
         self
+    }
+
+    /// Another command line.
+    pub(crate) fn command(self, arguments: &[&'static str]) -> Self {
+        Self { arguments: arguments.to_vec(), ..self }
     }
 
     /// More of the command line.
@@ -66,16 +95,26 @@ impl Case {
         self
     }
 
+    /// Writes its files below a folder, which is made; returns how many bytes they have.
+    pub(crate) fn write(&self, folder: &Path) -> usize {
+        fs::create_dir_all(folder).expect("a writable folder");
+        let size = |(name, content): &(&str, Content)| {
+            add(&folder.join(name), content);
+            match content {
+                Content::File(bytes) => bytes.len(),
+                _ => 0,
+            }
+        };
+        self.files.iter().map(size).sum()
+    }
+
     /// What is wrong with what the command did; `None` if nothing.
     fn complaint(&self) -> Option<String> {
         let folder = Folder::new();
-        let mut expected: Vec<String> = Vec::new();
-        for (name, content) in &self.files {
-            folder.write(name, content);
-            expected.push((*name).to_owned());
-        }
-        let outcome = folder.run(&self.arguments);
-        if self.exit == 0 {
+        self.write(&folder.path(""));
+        let mut expected = folder.names();
+        let outcome = folder.run_within(LIMITS, &self.arguments);
+        if self.exit == 0 && self.arguments.contains(&"out.pfm") {
             expected.push("out.pfm".to_owned());
         }
         expected.sort();
@@ -92,10 +131,41 @@ impl Case {
     }
 }
 
+/// Puts what a name stands for into a folder, and the folders above it.
+fn add(path: &Path, content: &Content) {
+    fs::create_dir_all(path.parent().expect("a folder")).expect("a writable folder");
+    match content {
+        Content::File(bytes) => fs::write(path, bytes).expect("a writable folder"),
+        Content::Folder => fs::create_dir(path).expect("a writable folder"),
+        #[cfg(unix)]
+        Content::Link(target) => {
+            std::os::unix::fs::symlink(target, path).expect("a writable folder");
+        }
+        #[cfg(unix)]
+        Content::Pipe => {
+            let made = std::process::Command::new("mkfifo").arg(path).status();
+            assert!(made.is_ok_and(|status| status.success()), "mkfifo");
+        }
+        // Only Unix has the cases with these.
+        #[cfg(not(unix))]
+        Content::Link(_) | Content::Pipe => {}
+    }
+}
+
+/// No file may flood a terminal: a hundred warnings, the longest of which have 1000 characters, are less.
+const MOST_TEXT: usize = 150_000;
+
 /// What is wrong with the messages of a run; `None` if nothing.
 pub(crate) fn messages(outcome: &Outcome, exit: i32, says: &[&str]) -> Option<String> {
     if outcome.stderr.contains("panicked") {
         return Some("it panics".to_owned());
+    }
+    let acts = |c: char| c.is_control() && c != '\n';
+    if outcome.stderr.contains(acts) || outcome.stdout.contains(acts) {
+        return Some("it controls the terminal".to_owned());
+    }
+    if outcome.stderr.len() > MOST_TEXT {
+        return Some(format!("{} bytes of messages", outcome.stderr.len()));
     }
     let errors = outcome.errors();
     let expected = usize::from(exit != 0);

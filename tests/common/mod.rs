@@ -2,9 +2,12 @@
 
 #![allow(dead_code, reason = "each test file is a program of its own and uses a part of this")]
 
-use std::fs;
+use std::fs::{self, File};
+use std::io::{Read as _, Seek as _};
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::{Command, Output, Stdio};
+use std::thread::sleep;
+use std::time::{Duration, Instant};
 
 pub(crate) mod case;
 pub(crate) mod effects;
@@ -70,6 +73,14 @@ impl From<Output> for Outcome {
     }
 }
 
+/// What a run of the command may take.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Limits {
+    pub(crate) time: Duration,
+    /// Bytes of address space, where the system can bound it (Linux).
+    pub(crate) memory: u64,
+}
+
 /// A folder for one test, removed at its end.
 pub(crate) struct Folder(tempfile::TempDir);
 
@@ -118,6 +129,47 @@ impl Folder {
     /// Runs the command in the folder.
     pub(crate) fn run(&self, arguments: &[&str]) -> Outcome {
         self.command(arguments).output().expect("the command starts").into()
+    }
+
+    /// Runs the command in the folder; beyond the limits it is killed. Standard input stays open and silent, so that who reads it
+    /// waits.
+    pub(crate) fn run_within(&self, limits: Limits, arguments: &[&str]) -> Outcome {
+        let mut command = if cfg!(target_os = "linux") {
+            let mut shell = Command::new("sh");
+            // Every arena of the C library would reserve 64 MiB.
+            shell.env("MALLOC_ARENA_MAX", "1").env("RAYON_NUM_THREADS", "2");
+            shell.args(["-c", r#"ulimit -v "$1"; shift; exec "$@""#, "sh"]);
+            shell.arg((limits.memory >> 10).to_string()).arg(ETENDUE);
+            shell
+        } else {
+            Command::new(ETENDUE)
+        };
+        let [mut stdout, mut stderr] = [(); 2].map(|()| tempfile::tempfile().expect("a file"));
+        let into = |file: &File| Stdio::from(file.try_clone().expect("a file"));
+        command.args(arguments).current_dir(self.0.path()).stdin(Stdio::piped());
+        command.stdout(into(&stdout)).stderr(into(&stderr));
+        let start = Instant::now();
+        let mut child = command.spawn().expect("the command starts");
+        let status = loop {
+            if let Some(status) = child.try_wait().expect("a child") {
+                break Some(status);
+            }
+            if start.elapsed() > limits.time {
+                child.kill().and_then(|()| child.wait()).expect("a child");
+                break None;
+            }
+            sleep(Duration::from_millis(2));
+        };
+        let text = |file: &mut File| {
+            let mut text = String::new();
+            file.rewind().and_then(|()| file.read_to_string(&mut text)).expect("UTF-8");
+            text
+        };
+        let (stdout, mut stderr) = (text(&mut stdout), text(&mut stderr));
+        if status.is_none() {
+            stderr += &format!("\nkilled after {:?}", limits.time);
+        }
+        Outcome { exit: status.and_then(|status| status.code()), stdout, stderr }
     }
 
     /// Renders to `out.pfm`, which must succeed, and reads the picture.

@@ -63,12 +63,18 @@ impl<'a> Renderer<'a> {
     /// Prepares materials, lights, filter and threads.
     ///
     /// # Errors
-    /// The threads cannot be started; the program was compiled without the configuration that the scene calls for.
+    /// The picture does not fit in memory; the threads cannot be started; the program was compiled without the configuration that the scene calls for.
     pub fn new(scene: &'a Scene, settings: RenderSettings) -> Result<Self, RendererError> {
         let configuration = Configuration::of(scene, &settings);
         if !configuration.is_compiled() {
             return Err(RendererError::NotCompiled(configuration));
         }
+        let [width, height] = scene.film.crop.size;
+        let pixels = width as usize * height as usize;
+        // Asked for and given back: a program without memory ends, which no caller can stop.
+        Vec::<[f32; 3]>::new()
+            .try_reserve_exact(pixels)
+            .map_err(|_| RendererError::Memory { width, height })?;
         let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(settings.threads)
             .thread_name(|i| format!("render {i}"))

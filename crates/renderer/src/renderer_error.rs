@@ -12,6 +12,13 @@ pub enum RendererError {
     Threads(rayon::ThreadPoolBuildError),
     /// The program was compiled without what the scene calls for.
     NotCompiled(Configuration),
+    /// There is no memory for a picture of so many pixels.
+    Memory {
+        /// Columns.
+        width: u32,
+        /// Rows.
+        height: u32,
+    },
 }
 
 impl Display for RendererError {
@@ -19,6 +26,9 @@ impl Display for RendererError {
         match self {
             Self::Threads(error) => {
                 write!(f, "the threads for rendering could not be started: {error}")
+            }
+            Self::Memory { width, height } => {
+                write!(f, "a picture of {width} × {height} pixels does not fit in memory")
             }
             Self::NotCompiled(configuration) => {
                 let name = configuration.name();
@@ -35,7 +45,7 @@ impl Error for RendererError {
     fn source(&self) -> Option<&(dyn Error + 'static)> {
         match self {
             Self::Threads(error) => Some(error),
-            Self::NotCompiled(_) => None,
+            Self::NotCompiled(_) | Self::Memory { .. } => None,
         }
     }
 }

@@ -7,6 +7,7 @@ use core::fmt;
 use etendue_math::Spectrum;
 
 use crate::Scene;
+use crate::error::printable;
 use crate::light::Light;
 use crate::material::{Material, MaterialId};
 use crate::scene::Shows;
@@ -39,8 +40,9 @@ impl fmt::Display for Diagnosis {
             Self::NoShape => f.write_str("there are no shapes: only the background can be seen"),
             Self::SpecularUnderDeltaLights { shape, count } => write!(
                 f,
-                "{shape} (of {count} such) is perfectly specular and all lights are points or parallel \
-                 light: it reflects none of them; make the material rough or a light extended"
+                "{} (of {count} such) is perfectly specular and all lights are points or parallel \
+                 light: it reflects none of them; make the material rough or a light extended",
+                printable(shape.clone())
             ),
         }
     }

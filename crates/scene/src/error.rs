@@ -1,6 +1,6 @@
 //! What can be wrong with a scene, and where.
 
-use alloc::string::String;
+use alloc::string::{String, ToString as _};
 use alloc::vec::Vec;
 use core::fmt;
 use std::path::{Path, PathBuf};
@@ -30,7 +30,7 @@ impl Location {
 
 impl fmt::Display for Location {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}", self.file.display())?;
+        f.write_str(&printable(self.file.display().to_string()))?;
         if let Some(line) = self.line {
             write!(f, ":{line}")?;
         }
@@ -70,7 +70,8 @@ pub struct SceneError {
 impl SceneError {
     /// The content of a file is wrong.
     pub fn scene(location: Location, message: impl Into<String>) -> Self {
-        Self { kind: ErrorKind::Scene, location, message: message.into(), help: None }
+        let message = printable(message.into());
+        Self { kind: ErrorKind::Scene, location, message, help: None }
     }
 
     /// A file cannot be read.
@@ -85,19 +86,18 @@ impl SceneError {
 
     /// The content asks for too much.
     pub fn resource(location: Location, message: impl Into<String>) -> Self {
-        Self { kind: ErrorKind::Resource, location, message: message.into(), help: None }
+        Self { kind: ErrorKind::Resource, ..Self::scene(location, message) }
     }
 
     /// What the caller asked for beside the file does not fit it; no file is to blame.
     pub fn options(message: impl Into<String>) -> Self {
-        let location = Location::default();
-        Self { kind: ErrorKind::Options, location, message: message.into(), help: None }
+        Self { kind: ErrorKind::Options, ..Self::scene(Location::default(), message) }
     }
 
     /// The same error with advice on how to mend it.
     #[must_use]
     pub fn help(mut self, help: impl Into<String>) -> Self {
-        self.help = Some(help.into());
+        self.help = Some(printable(help.into()));
         self
     }
 }
@@ -124,7 +124,7 @@ pub struct Warning {
 impl Warning {
     /// A warning about a place.
     pub fn new(location: Location, message: impl Into<String>) -> Self {
-        Self { location, message: message.into() }
+        Self { location, message: printable(message.into()) }
     }
 }
 
@@ -142,5 +142,54 @@ fn describe(f: &mut fmt::Formatter<'_>, location: &Location, message: &str) -> f
     }
 }
 
+/// Characters of a message, beyond which it is shown without its middle, and how many of each end are.
+const LONGEST: usize = 1000;
+const ENDS: usize = 450;
+
+/// A message, which quotes what files hold, as text for a terminal: on one line, without codes that would do something there, of
+/// bounded length.
+pub(crate) fn printable(text: String) -> String {
+    // Line breaks, escape codes, and marks that turn the direction of writing.
+    let acts =
+        |c: char| c.is_control() || matches!(c, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
+    if text.len() <= LONGEST && !text.contains(acts) {
+        return text;
+    }
+    let shown = |c: char| if acts(c) { c.escape_unicode().collect() } else { String::from(c) };
+    let count = text.chars().count();
+    if count <= LONGEST {
+        return text.chars().map(shown).collect();
+    }
+    let ends = [
+        text.chars().take(ENDS).map(shown).collect(),
+        text.chars().skip(count - ENDS).map(shown).collect(),
+    ];
+    let [begin, end]: [String; 2] = ends;
+    alloc::format!("{begin} … {end}")
+}
+
 /// Warnings in the order they were found.
 pub(crate) type Warnings = Vec<Warning>;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_files_hold_is_shown_without_its_effect_on_a_terminal() {
+        let error =
+            SceneError::scene(Location::line("a\u{1b}[2J", 3), "“x\ny\u{202e}é”").help("\r");
+        assert_eq!(error.to_string(), r"a\u{1b}[2J:3: “x\u{a}y\u{202e}é”; \u{d}");
+        let warning = Warning::new(Location::default(), "\u{7}");
+        assert_eq!(warning.to_string(), r"\u{7}");
+    }
+
+    #[test]
+    fn a_long_message_is_shown_without_its_middle() {
+        let whole = "é".repeat(LONGEST);
+        assert_eq!(printable(whole.clone()), whole);
+        let shown = printable(alloc::format!("begin {whole} end"));
+        assert!(shown.starts_with("begin é") && shown.ends_with("é end"), "{shown}");
+        assert_eq!(shown.chars().count(), 2 * ENDS + 3);
+    }
+}

@@ -112,7 +112,7 @@ impl Scene {
         let infinite_lights = infinite(&lights);
         let bounds = geometry.bounds();
         let radius = if bounds.is_empty() { 0.0 } else { 0.5 * Vector3::length(bounds.extent()) };
-        Ok(Self {
+        let scene = Self {
             geometry,
             surfaces,
             materials,
@@ -125,7 +125,9 @@ impl Scene {
             path,
             infinite_lights,
             radius,
-        })
+        };
+        check::check_powers(&scene)?;
+        Ok(scene)
     }
 
     /// Removes the lights that are not to be kept; shapes that were such a light stay where they are and emit nothing.

@@ -270,6 +270,7 @@ fn render(arguments: &Arguments, recipe: &Recipe) -> Result<Exit, Failure> {
     };
     let report = Report { render_seconds, build_seconds, drawing: &drawing, sources: &sources };
     report.warn_of_bad_samples(scene.sampling.seed);
+    report.warn_of_overflow();
 
     let encoding = Encoding { precision: arguments.precision, exposure: arguments.exposure };
     let mut metadata = report.metadata(arguments, &scene);
@@ -295,7 +296,9 @@ fn render(arguments: &Arguments, recipe: &Recipe) -> Result<Exit, Failure> {
     }
     Ok(match interrupt.exit() {
         Some(exit) => exit,
-        None if arguments.strict && report.non_finite() > 0 => Exit::Unhealthy,
+        None if arguments.strict && (report.non_finite() > 0 || report.overflowed() > 0) => {
+            Exit::Unhealthy
+        }
         None => Exit::Done,
     })
 }

@@ -21,6 +21,9 @@ pub(crate) struct SceneArguments {
     /// Material of a bare mesh or of all of a model, as in `--bsdf roughconductor:material=Au,alpha=0.2`.
     #[arg(long, value_name = "TYPE[:KEY=VALUE,…]")]
     bsdf: Option<String>,
+    /// Refuse files outside of the scene's folder, wherever links and `..` lead: for scenes that are not trusted.
+    #[arg(long)]
+    sandbox: bool,
 }
 
 impl SceneArguments {
@@ -38,16 +41,23 @@ impl SceneArguments {
             definitions: self.definitions.clone(),
             leniency: if self.lenient { Leniency::Lenient } else { Leniency::Strict },
             bsdf: self.bsdf.clone(),
+            sandbox: self.sandbox,
             ..LoadOptions::default()
         }
     }
 }
 
+/// Warnings that are printed one by one.
+const MOST_WARNINGS: usize = 100;
+
 /// Reads a scene and prints its warnings.
 pub(crate) fn load(path: &Path, options: &LoadOptions) -> Result<LoadedScene, Failure> {
     let loaded = load_scene(path, options)?;
-    for warning in &loaded.warnings {
+    for warning in loaded.warnings.iter().take(MOST_WARNINGS) {
         eprintln!("etendue: warning: {warning}");
+    }
+    if let Some(more @ 1..) = loaded.warnings.len().checked_sub(MOST_WARNINGS) {
+        eprintln!("etendue: warning: {more} more warnings of the scene");
     }
     Ok(loaded)
 }

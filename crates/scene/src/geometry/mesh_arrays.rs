@@ -170,6 +170,16 @@ impl MeshArrays {
         &self.attributes
     }
 
+    /// Memory of the arrays.
+    pub(crate) fn bytes(&self) -> usize {
+        let vertices = size_of_val(&*self.positions) + size_of_val(&*self.normals);
+        let attributes = self.attributes.iter().map(|a| size_of_val(&*a.values));
+        vertices
+            + size_of_val(&*self.uvs)
+            + size_of_val(&*self.triangles)
+            + attributes.sum::<usize>()
+    }
+
     /// The mesh with positions moved by a transform and normals by its transposed inverse.
     ///
     /// The order of the vertices stays, so mirroring turns a mesh without normals inside out, as

@@ -346,6 +346,11 @@ impl Geometry {
         self.top.bvh.bounds()
     }
 
+    /// Boxes that hold the world and each group, in its own space.
+    pub(crate) fn level_bounds(&self) -> impl Iterator<Item = Aabb> {
+        self.groups.iter().chain([&self.top]).map(|level| level.bvh.bounds())
+    }
+
     /// How large it is.
     pub fn statistics(&self) -> GeometryStatistics {
         let levels = || self.groups.iter().chain([&self.top]);

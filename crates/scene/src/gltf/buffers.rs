@@ -3,13 +3,14 @@
 use alloc::borrow::Cow;
 use alloc::format;
 use alloc::vec::Vec;
-use core::cell::Cell;
-use std::path::PathBuf;
+use core::cell::{Cell, RefCell};
+use std::path::{Path, PathBuf};
 
 use super::document::Document;
 use super::json::Json;
 use super::uri::{Resource, fetch};
 use crate::SceneError;
+use crate::load::Allowance;
 
 /// Files of N bytes may unfold to `FREE + RATIO · N` elements: parts of a mesh may share vertices, but a kilobyte cannot ask for
 /// gigabytes.
@@ -24,6 +25,8 @@ pub(super) struct Buffers<'a> {
     contents: Vec<Option<Cow<'a, [u8]>>>,
     /// Elements that may still be read.
     allowance: Cell<u64>,
+    /// How much the files that were read may unfold to.
+    read: RefCell<Allowance>,
 }
 
 /// A part of a buffer.
@@ -48,11 +51,13 @@ impl<'a> Buffers<'a> {
     ) -> Result<Self, SceneError> {
         let mut contents = Vec::new();
         let mut total = 0;
+        let mut read = Allowance::default();
         for (index, json) in document.list("buffers")?.iter().enumerate() {
             let mut content: Option<Cow<'a, [u8]>> = match json.get("uri")? {
-                Some(uri) => Some(Cow::Owned(match fetch(&uri, document.file())? {
+                Some(uri) => Some(Cow::Owned(match fetch(&uri, document)? {
                     Resource::Data(bytes) => bytes,
                     Resource::File(path, bytes) => {
+                        read.spend(&path, bytes.len()).map_err(|error| uri.told_of(error))?;
                         files.push(path);
                         bytes
                     }
@@ -76,7 +81,7 @@ impl<'a> Buffers<'a> {
             contents.push(content);
         }
         let allowance = Cell::new(FREE + RATIO * total);
-        Ok(Self { document, contents, allowance })
+        Ok(Self { document, contents, allowance, read: RefCell::new(read) })
     }
 
     /// The document.
@@ -98,6 +103,19 @@ impl<'a> Buffers<'a> {
                 "{elements} more elements are out of all proportion to the buffers of the file"
             ))),
         }
+    }
+
+    /// Accounts for bytes that were made of a file for the sake of an object.
+    ///
+    /// # Errors
+    /// More in all than there is reason for in files of this size.
+    pub(super) fn unfold(
+        &self,
+        path: &Path,
+        bytes: usize,
+        json: &Json<'_>,
+    ) -> Result<(), SceneError> {
+        self.read.borrow_mut().spend(path, bytes).map_err(|error| json.told_of(error))
     }
 
     /// The view that a property names, if it names one.

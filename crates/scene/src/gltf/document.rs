@@ -9,7 +9,7 @@ use serde_json::Value;
 
 use super::glb;
 use super::json::Json;
-use crate::load::read_asset;
+use crate::load::{Sandbox, read_asset};
 use crate::{Location, SceneError, Warning};
 
 /// The largest JSON that is read, in bytes, as of scene files.
@@ -44,6 +44,8 @@ pub(super) struct Document {
     binary: Option<Vec<u8>>,
     /// An object that says nothing.
     empty: Value,
+    /// Where the files that it names must lie.
+    sandbox: Sandbox,
 }
 
 impl Document {
@@ -51,8 +53,9 @@ impl Document {
     ///
     /// # Errors
     /// A file that cannot be read, and what [`parse`](Self::parse) refuses.
-    pub(super) fn read(path: &Path) -> Result<Self, SceneError> {
-        Self::parse(&read_asset(path)?, path)
+    pub(super) fn read(path: &Path, sandbox: &Sandbox) -> Result<Self, SceneError> {
+        let document = Self::parse(&read_asset(path)?, path)?;
+        Ok(Self { sandbox: sandbox.clone(), ..document })
     }
 
     /// Reads the content of a file: binary containers are told by their first bytes.
@@ -76,6 +79,7 @@ impl Document {
             root,
             binary: binary.map(Vec::from),
             empty: Value::Object(serde_json::Map::new()),
+            sandbox: Sandbox::default(),
         };
         document.check()?;
         Ok(document)
@@ -138,6 +142,11 @@ impl Document {
     /// The file.
     pub(super) fn file(&self) -> &Path {
         &self.file
+    }
+
+    /// Where the files that it names must lie.
+    pub(super) fn sandbox(&self) -> &Sandbox {
+        &self.sandbox
     }
 
     /// The buffer inside a binary container.

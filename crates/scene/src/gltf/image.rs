@@ -39,11 +39,11 @@ pub(super) fn read(
     json: &Json<'_>,
     files: &mut Vec<PathBuf>,
 ) -> Result<Pixels, SceneError> {
-    let document = buffers.document().file();
     let resource = match json.get("uri")? {
-        Some(uri) => Some(fetch(&uri, document)?),
+        Some(uri) => Some(fetch(&uri, buffers.document())?),
         None => None,
     };
+    let document = buffers.document().file();
     let (path, bytes): (Cow<'_, Path>, Cow<'_, [u8]>) = match resource {
         Some(Resource::File(path, bytes)) => {
             files.push(path.clone());
@@ -63,6 +63,7 @@ pub(super) fn read(
         error.message = format!("{} ({})", error.message, json.place());
         error
     })?;
+    buffers.unfold(&path, size_of_val(image.data()), json)?;
     let (width, height, channels) = (image.width(), image.height(), image.channels());
     Ok(Pixels { width, height, channels, samples: Samples::of(image.into_data()) })
 }

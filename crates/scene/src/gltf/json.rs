@@ -46,6 +46,12 @@ impl<'a> Json<'a> {
         Warning::new(Location::file(self.file), self.told(message))
     }
 
+    /// The error of a file that this value names, with its place.
+    pub(super) fn told_of(&self, mut error: SceneError) -> SceneError {
+        error.message = format!("{} (named at {})", error.message, self.place);
+        error
+    }
+
     fn told(&self, message: impl Display) -> String {
         if self.place.is_empty() {
             format!("{message}")

@@ -48,14 +48,15 @@ use json::Json;
 
 use crate::effect::Element;
 use crate::light::LightId;
+use crate::load::Sandbox;
 use crate::{Color, SceneError};
 
-/// Reads a file.
+/// Reads a file and those that it names, which must lie in the sandbox.
 ///
 /// # Errors
 /// Files that cannot be read, content that is wrong or not supported, and demands for too much memory, each with its place.
-pub(crate) fn load(path: &Path) -> Result<Model, SceneError> {
-    translate(&Document::read(path)?)
+pub(crate) fn load(path: &Path, sandbox: &Sandbox) -> Result<Model, SceneError> {
+    translate(&Document::read(path, sandbox)?)
 }
 
 /// Translates everything that the scene of a document holds.

@@ -104,6 +104,7 @@ pub(super) fn of(
         Part::Gloss(factor) => pixels.mapped(1, |roughness| gloss(roughness * f32::from(factor))),
     };
     let image = image.map_err(|error| json.error(error))?;
+    builder.buffers.unfold(document.file(), image.bytes(), &json)?;
     let bitmap = Bitmap::new(image, filter, wraps[0], uv).with_wraps(wraps);
     let id = builder.model.textures.add(Texture::Bitmap(bitmap));
     builder.note(Element::Texture(id), &json)?;

@@ -6,6 +6,7 @@ use alloc::vec::Vec;
 use std::path::PathBuf;
 
 use super::base64;
+use super::document::Document;
 use super::json::Json;
 use crate::SceneError;
 use crate::load::read_asset;
@@ -22,7 +23,7 @@ pub(super) enum Resource {
 ///
 /// # Errors
 /// Other schemes, data that is no base64, a file that cannot be read.
-pub(super) fn fetch(uri: &Json<'_>, document: &std::path::Path) -> Result<Resource, SceneError> {
+pub(super) fn fetch(uri: &Json<'_>, document: &Document) -> Result<Resource, SceneError> {
     let text = uri.as_text()?;
     match scheme(text) {
         Some(scheme) if scheme.eq_ignore_ascii_case("data") => {
@@ -47,14 +48,10 @@ pub(super) fn fetch(uri: &Json<'_>, document: &std::path::Path) -> Result<Resour
         }
         None => {
             let name = percent_decoded(text);
-            let path = document.parent().unwrap_or(document).join(&*name);
-            match read_asset(&path) {
+            let path = document.file().parent().unwrap_or(document.file()).join(&*name);
+            match document.sandbox().check(&path).and_then(|()| read_asset(&path)) {
                 Ok(bytes) => Ok(Resource::File(path, bytes)),
-                Err(mut error) => {
-                    let place = uri.place();
-                    error.message = alloc::format!("{} (named at {place})", error.message);
-                    Err(error)
-                }
+                Err(error) => Err(uri.told_of(error)),
             }
         }
     }

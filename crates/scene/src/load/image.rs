@@ -136,8 +136,9 @@ const MOST_PIXELS: u64 = 1 << 28;
 const FREE: u64 = 1 << 26;
 const RATIO: u64 = 64;
 
-/// No file holds more samples per byte: deflate yields at most 1032 bytes for one, JPEG a block of 64 for a bit, run lengths fewer.
-const MOST_PER_BYTE: u64 = 2048;
+/// No file holds more samples per byte: deflate yields at most 1032 bytes for one, each of eight samples of a bit; JPEG a block of 64
+/// for a bit, run lengths fewer.
+const MOST_PER_BYTE: u64 = 8 * 1032;
 
 /// How many samples a file of so many bytes may hold.
 fn most_samples(bytes: &[u8]) -> u64 {

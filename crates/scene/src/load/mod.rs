@@ -16,6 +16,7 @@
 //! - Memory is proportional to the file: declared counts are checked against its size before
 //!   anything is allocated, and what a compressed file may unfold to is bounded.
 //! - Only regular files are opened; devices, pipes and directories are refused.
+//! - Which files a scene may name at all is told by a [`Sandbox`].
 //!
 //! # Non-goals
 //! Nothing here interprets: transforms, missing normals ([`smooth_normals`]), textures and BSDFs are
@@ -24,6 +25,7 @@
 //! # Cores
 //! Binary PLY and OBJ files are read on all cores (rayon's global pool); the result does not depend on their number.
 
+mod allowance;
 mod curves;
 mod file;
 mod image;
@@ -36,11 +38,13 @@ mod obj_parts;
 mod obj_pieces;
 mod obj_statements;
 mod ply;
+mod sandbox;
 mod serialized;
 pub mod srgb;
 mod volume;
 mod warnings;
 
+pub(crate) use allowance::Allowance;
 pub use curves::{CurveFile, load_curves, parse_curves};
 pub use file::read_asset;
 pub use image::{Encoding, Image, load_image, parse_image};
@@ -49,5 +53,6 @@ pub use mtl::{MtlMap, MtlMaterial, load_mtl, parse_mtl};
 pub use normals::smooth_normals;
 pub use obj::{ObjMesh, ObjScene, load_obj, load_obj_merged, parse_obj, parse_obj_merged};
 pub use ply::{load_ply, parse_ply};
+pub use sandbox::Sandbox;
 pub use serialized::{load_serialized, parse_serialized};
 pub use volume::{VolumeFile, load_sdf, load_volume, parse_sdf, parse_volume};

@@ -30,6 +30,7 @@ use super::mtl::{MtlMaterial, parse_mtl, relative};
 use super::obj_parts::Parts;
 use super::obj_pieces::{Pieces, Sizes, tasks};
 use super::obj_statements::{Count, Mark, Statements};
+use super::sandbox::Sandbox;
 use super::warnings::KindWarnings;
 
 /// An OBJ file with its materials.
@@ -55,13 +56,18 @@ pub struct ObjMesh {
     pub mesh: MeshArrays,
 }
 
-/// An OBJ file, its parts apart, with the MTL files it names.
+/// An OBJ file, its parts apart, with the MTL files it names: those outside of the sandbox are left out with a warning.
 ///
 /// # Errors
 /// A file that cannot be read, and everything [`parse_obj`] refuses.
-pub fn load_obj(path: &Path, tex_coords: TexCoords) -> Result<ObjScene, SceneError> {
+pub fn load_obj(
+    path: &Path,
+    tex_coords: TexCoords,
+    sandbox: &Sandbox,
+) -> Result<ObjScene, SceneError> {
     let (file, size) = open_asset(path)?;
-    Parser::new(path, tex_coords, Some(&mut read_asset)).read(file, size, Sizes::USUAL)
+    let mut library = |path: &Path| sandbox.check(path).and_then(|()| read_asset(path));
+    Parser::new(path, tex_coords, Some(&mut library)).read(file, size, Sizes::USUAL)
 }
 
 /// An OBJ file as one mesh, its groups and materials ignored; warns where it has no faces.

@@ -274,12 +274,21 @@ pub enum MaterialError {
     /// It puts a layer on something that light can pass.
     #[error("only an opaque material, of one side, can have a coating")]
     TransmissiveBase,
+    /// It is made of too many others, those that are met more than once counted every time.
+    #[error("the material is made of {0} others, {MOST_PARTS} are possible")]
+    TooManyParts(u32),
 }
+
+/// The most parts of a material: each is looked at at every hit. A few that refer to each other twice could make a number that no
+/// machine has time for.
+const MOST_PARTS: u32 = 4096;
 
 /// All materials of a scene.
 #[derive(Clone, Debug, Default)]
 pub struct Materials {
     materials: Vec<Material>,
+    /// Of how many parts each consists, with itself, each counted as often as it is met.
+    parts: Vec<u32>,
 }
 
 impl Materials {
@@ -288,7 +297,7 @@ impl Materials {
     /// # Errors
     /// A family that the program was compiled without; a reference to a material that was not added before; a [`Material::TwoSided`]
     /// or [`Material::Coated`] of materials that transmit, are masked or are two-sided themselves; a [`Material::BumpMap`] inside another or inside a
-    /// [`Material::NormalMap`].
+    /// [`Material::NormalMap`]; a material of more than 4096 parts.
     pub fn add(&mut self, material: Material) -> Result<MaterialId, MaterialError> {
         if let Some((family, false)) = material.family() {
             return Err(MaterialError::NotCompiled(family));
@@ -325,7 +334,13 @@ impl Materials {
             }
             _ => {}
         }
+        let parts = material.nested().filter_map(|part| self.parts.get(part.0 as usize));
+        let parts = parts.fold(1_u32, |sum, part| sum.saturating_add(*part));
+        if parts > MOST_PARTS {
+            return Err(MaterialError::TooManyParts(parts));
+        }
         self.materials.push(material);
+        self.parts.push(parts);
         Ok(MaterialId(self.materials.len() as u32 - 1))
     }
 

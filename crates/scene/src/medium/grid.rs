@@ -101,6 +101,14 @@ impl VolumeGrid {
         self.size
     }
 
+    /// Memory of the values.
+    pub(crate) fn bytes(&self) -> usize {
+        match &self.values {
+            Values::Grey(values) => size_of_val(&**values),
+            Values::Rgb(values) => size_of_val(&**values),
+        }
+    }
+
     /// Whether it has colours.
     pub fn has_colours(&self) -> bool {
         matches!(self.values, Values::Rgb(_))

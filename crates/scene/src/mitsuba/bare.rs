@@ -11,7 +11,9 @@ use super::shape::{Surface, add_surface, shaded};
 use super::{Context, LoadOptions, LoadedScene, bsdf, mtl, scene};
 use crate::geometry::Shape;
 use crate::light::{ConstantLight, Light};
-use crate::load::{MeshFile, MtlMaterial, ObjMesh, ObjScene, TexCoords, load_obj, load_ply};
+use crate::load::{
+    MeshFile, MtlMaterial, ObjMesh, ObjScene, Sandbox, TexCoords, load_obj, load_ply,
+};
 use crate::material::MaterialId;
 use crate::scene::PathSettings;
 use crate::xml::{Description, Leniency, parse_float, parse_list, parse_text};
@@ -25,11 +27,15 @@ pub(super) const WHITE_SKY: Light =
 ///
 /// # Errors
 /// A file that is no mesh, a bsdf that is none.
-pub(super) fn mesh(path: &Path, options: &LoadOptions) -> Result<LoadedScene, SceneError> {
+pub(super) fn mesh(
+    path: &Path,
+    options: &LoadOptions,
+    sandbox: Sandbox,
+) -> Result<LoadedScene, SceneError> {
     let description = described(path, options)?;
-    let mut context = Context::new(&description, options);
+    let mut context = Context::new(&description, options, sandbox);
     let given = given(&mut context)?;
-    let ObjScene { meshes, materials, warnings } = read(path)?;
+    let ObjScene { meshes, materials, warnings } = read(path, &context.sandbox)?;
     context.warnings.extend(warnings);
     let own: Vec<Look> = if given.is_none() {
         materials.iter().map(|m| mtl::look(&mut context, m, path)).collect::<Result<_, _>>()?
@@ -74,9 +80,9 @@ pub(super) fn given(context: &mut Context<'_>) -> Result<Option<MaterialId>, Sce
 }
 
 /// The parts of a mesh file; a PLY file has one.
-fn read(path: &Path) -> Result<ObjScene, SceneError> {
+fn read(path: &Path, sandbox: &Sandbox) -> Result<ObjScene, SceneError> {
     if path.extension().is_some_and(|e| e.eq_ignore_ascii_case("obj")) {
-        return load_obj(path, TexCoords::Flipped);
+        return load_obj(path, TexCoords::Flipped, sandbox);
     }
     let MeshFile { name, mesh, warnings, .. } = load_ply(path, TexCoords::AsWritten)?;
     // The options know no textures.

@@ -3,7 +3,7 @@
 use alloc::collections::BTreeMap;
 use alloc::format;
 use alloc::vec::Vec;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use super::LoadOptions;
 use super::origins::Origins;
@@ -11,6 +11,7 @@ use super::reader::PluginReader;
 use super::sensor::Sensor;
 use crate::geometry::{GeometryBuilder, GroupId, Shape, Shutter};
 use crate::light::Light;
+use crate::load::{Allowance, Sandbox};
 use crate::material::{Material, MaterialId, Materials};
 use crate::medium::{Media, MediumId};
 use crate::scene::{Layer, SurfaceInfo};
@@ -25,6 +26,11 @@ pub(super) type Translate<T> =
 /// The plugins of one family: their names and what they mean.
 pub(super) type Family<T> = [(&'static str, Translate<T>)];
 
+/// A description of N plugins and references may be translated to `FREE + RATIO · N` parts: those that many refer to are translated
+/// once, but for shapes that are merged and phase functions that are blended, of which a few lines could ask for without end.
+const FREE: usize = 4096;
+const RATIO: usize = 64;
+
 /// The parts of a scene, as far as they are translated.
 pub(super) struct Context<'a> {
     pub(super) description: &'a Description,
@@ -34,6 +40,12 @@ pub(super) struct Context<'a> {
     pub(super) warnings: Vec<Warning>,
     /// Files read beside the scene files themselves.
     pub(super) files: Vec<PathBuf>,
+    /// Where all of them must lie.
+    pub(super) sandbox: Sandbox,
+    /// How much they may unfold to.
+    allowance: Allowance,
+    /// How many more plugins may be translated.
+    left: usize,
     pub(super) textures: Textures,
     pub(super) materials: Materials,
     pub(super) geometry: GeometryBuilder,
@@ -57,13 +69,22 @@ pub(super) struct Context<'a> {
 }
 
 impl<'a> Context<'a> {
-    pub(super) fn new(description: &'a Description, options: &'a LoadOptions) -> Self {
+    pub(super) fn new(
+        description: &'a Description,
+        options: &'a LoadOptions,
+        sandbox: Sandbox,
+    ) -> Self {
+        let nodes = description.nodes();
+        let size: usize = nodes.iter().map(|node| 1 + node.children.len()).sum();
         Self {
             description,
             options,
             shutter: Shutter::default(),
             warnings: Vec::new(),
             files: Vec::new(),
+            sandbox,
+            allowance: Allowance::default(),
+            left: FREE + RATIO * size,
             textures: Textures::default(),
             materials: Materials::default(),
             geometry: GeometryBuilder::new(),
@@ -91,6 +112,15 @@ impl<'a> Context<'a> {
         self.warnings.push(Warning::new(location, message));
     }
 
+    /// Notes a file that was read and unfolded to so many bytes.
+    ///
+    /// # Errors
+    /// More than there is reason for in files of this size.
+    pub(super) fn read(&mut self, path: &Path, unfolded: usize) -> Result<(), SceneError> {
+        self.files.push(path.to_path_buf());
+        self.allowance.spend(path, unfolded)
+    }
+
     /// Adds a material that is described at `location`.
     pub(super) fn add_material(
         &mut self,
@@ -114,6 +144,11 @@ impl<'a> Context<'a> {
         let Some((_, plugin)) = family.iter().find(|(name, _)| *name == node.plugin) else {
             return Err(unsupported(node, family.iter().map(|(name, _)| *name).collect()));
         };
+        self.left = self.left.checked_sub(1).ok_or_else(|| {
+            let message = "plugins refer to each other so often that the scene grows without end";
+            SceneError::resource(node.location.clone(), message)
+                .help("make instances of a shapegroup instead")
+        })?;
         let mut reader = PluginReader::new(node);
         let result = plugin(&mut reader, self)?;
         reader.finish(self)?;

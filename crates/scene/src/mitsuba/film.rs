@@ -164,8 +164,11 @@ fn mitchell<'a>(
     reader: &mut PluginReader<'a>,
     _: &mut Context<'a>,
 ) -> Result<ReconstructionFilter, SceneError> {
-    let b = reader.float("B")?.unwrap_or(1.0 / 3.0) as f32;
-    let c = reader.float("C")?.unwrap_or(1.0 / 3.0) as f32;
+    // Both lie in [0, 1] in the paper; larger ones are sharper still, but sums of samples are to stay in range.
+    let valid = |x: f64| x.abs() <= 10.0;
+    let mut parameter =
+        |name| reader.float_in(name, 1.0 / 3.0, "between -10 and 10", valid).map(|x| x as f32);
+    let (b, c) = (parameter("B")?, parameter("C")?);
     Ok(ReconstructionFilter::Mitchell { b, c })
 }
 

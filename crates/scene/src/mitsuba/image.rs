@@ -20,13 +20,14 @@ pub(super) fn image(
     let Some(name) = reader.string("filename")? else {
         return Err(reader.error("filename", format!("{} has no “filename”", reader.title())));
     };
-    let path = reader.node().search.resolve(name);
-    let image = load_image(&path, encoding).map_err(|mut error| {
+    let named = |mut error: SceneError| {
         let place = reader.location("filename");
         error.message = format!("{} (named at {place})", error.message);
         error
-    })?;
-    context.files.push(path);
+    };
+    let path = reader.node().search.resolve(name).map_err(named)?;
+    let image = load_image(&path, encoding).map_err(named)?;
+    context.read(&path, size_of_val(image.data())).map_err(named)?;
     texels(&image).map_err(|e| reader.error("filename", format!("{name}: {e}")))
 }
 

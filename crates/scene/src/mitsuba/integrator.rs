@@ -21,6 +21,9 @@ const INTEGRATORS: &Family<PathSettings> = &[
     ("volpathmis", volumetric_path),
 ];
 
+/// Edges that all paths may have: those in a room that absorbs nothing would have them.
+const MOST_EDGES: u32 = 1 << 16;
+
 /// The paths the integrator of a scene asks for.
 pub(super) fn translate(context: &mut Context<'_>, id: NodeId) -> Result<PathSettings, SceneError> {
     let node = context.description.node(id);
@@ -40,6 +43,13 @@ fn path<'a>(
     let roulette_depth = u32::try_from(roulette).ok().filter(|&n| n > 0).ok_or_else(|| {
         reader.error("rr_depth", format!("“rr_depth” must be positive, not {roulette}"))
     })?;
+    if max_depth.is_none_or(|depth| depth > MOST_EDGES) && roulette_depth > MOST_EDGES {
+        let message = format!(
+            "paths might never end: nothing bounds them before “rr_depth”, which is {roulette}"
+        );
+        let error = SceneError::resource(reader.location("rr_depth"), message);
+        return Err(error.help(format!("state an “rr_depth” or a “max_depth” up to {MOST_EDGES}")));
+    }
     Ok(PathSettings {
         max_depth,
         roulette_depth,

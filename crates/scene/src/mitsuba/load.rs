@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 use super::origins::Origins;
 use super::{Context, bare, model, scene};
 use crate::film::Crop;
+use crate::load::Sandbox;
 use crate::scene::{Layer, SamplerKind, Scene};
 use crate::xml::{Leniency, parse_file};
 use crate::{Location, SceneError, Warning};
@@ -34,6 +35,9 @@ pub struct LoadOptions {
     /// What a bare mesh or all of a model is made of, as `TYPE[:key=value,…]` with the names of scene files, such as
     /// `roughconductor:material=Au,alpha=0.2` or `diffuse:reflectance=0.8 0.2 0.1`.
     pub bsdf: Option<String>,
+    /// Whether files outside of the folder of the scene file are refused, wherever links and `..` lead: for scenes that are not
+    /// trusted.
+    pub sandbox: bool,
 }
 
 /// A scene with how it came about.
@@ -84,13 +88,14 @@ pub struct LoadedScene {
 /// ```
 pub fn load_scene(path: &Path, options: &LoadOptions) -> Result<LoadedScene, SceneError> {
     let extension = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
+    let sandbox = if options.sandbox { Sandbox::beside(path)? } else { Sandbox::default() };
     match extension.as_str() {
         "xml" => {
-            let description = parse_file(path, &options.definitions, options.leniency)?;
-            scene::scene(Context::new(&description, options))
+            let description = parse_file(path, &options.definitions, options.leniency, &sandbox)?;
+            scene::scene(Context::new(&description, options, sandbox))
         }
-        "gltf" | "glb" => model::scene(path, options),
-        "obj" | "ply" => bare::mesh(path, options),
+        "gltf" | "glb" => model::scene(path, options, sandbox),
+        "obj" | "ply" => bare::mesh(path, options, sandbox),
         _ => {
             let message = format!("a scene cannot be read from a file named “.{extension}”");
             Err(SceneError::scene(Location::file(path), message)

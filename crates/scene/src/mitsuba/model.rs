@@ -9,6 +9,7 @@ use super::{Context, LoadOptions, LoadedScene, bare, film, sampler, scene};
 use crate::camera::Camera;
 use crate::film::Film;
 use crate::gltf::{self, Model, View};
+use crate::load::Sandbox;
 use crate::scene::{PathSettings, SamplingSettings};
 use crate::{Location, SceneError};
 
@@ -20,9 +21,13 @@ use crate::{Location, SceneError};
 ///
 /// # Errors
 /// A file that is no model, a bsdf that is none.
-pub(super) fn scene(path: &Path, options: &LoadOptions) -> Result<LoadedScene, SceneError> {
+pub(super) fn scene(
+    path: &Path,
+    options: &LoadOptions,
+    sandbox: Sandbox,
+) -> Result<LoadedScene, SceneError> {
     let description = bare::described(path, options)?;
-    let mut context = Context::new(&description, options);
+    let mut context = Context::new(&description, options, sandbox);
     let Model {
         textures,
         materials,
@@ -34,7 +39,7 @@ pub(super) fn scene(path: &Path, options: &LoadOptions) -> Result<LoadedScene, S
         warnings,
         files,
         places,
-    } = gltf::load(path)?;
+    } = gltf::load(path, &context.sandbox)?;
     context.textures = textures;
     context.materials = materials;
     context.geometry = geometry;

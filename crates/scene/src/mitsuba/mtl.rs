@@ -162,11 +162,8 @@ fn index(context: &mut Context<'_>, m: &MtlMaterial, path: &Path) -> Result<Ior<
 /// The image of a map; `None` without one, and with a warning where it cannot be read.
 fn image(context: &mut Context<'_>, map: Option<&MtlMap>, encoding: Encoding) -> Option<TextureId> {
     let map = map?;
-    match bitmap(map, encoding) {
-        Ok(bitmap) => {
-            context.files.push(map.path.clone());
-            Some(context.textures.add(Texture::Bitmap(bitmap)))
-        }
+    match bitmap(context, map, encoding) {
+        Ok(bitmap) => Some(context.textures.add(Texture::Bitmap(bitmap))),
         Err(error) => {
             context.warn(error.location, error.message);
             None
@@ -174,9 +171,16 @@ fn image(context: &mut Context<'_>, map: Option<&MtlMap>, encoding: Encoding) ->
     }
 }
 
-fn bitmap(map: &MtlMap, encoding: Encoding) -> Result<Bitmap, SceneError> {
+fn bitmap(
+    context: &mut Context<'_>,
+    map: &MtlMap,
+    encoding: Encoding,
+) -> Result<Bitmap, SceneError> {
     let refused = |message| SceneError::scene(Location::file(&map.path), message);
-    let image = texels(&load_image(&map.path, encoding)?).map_err(|e| refused(format!("{e}")))?;
+    context.sandbox.check(&map.path)?;
+    let image = load_image(&map.path, encoding)?;
+    context.read(&map.path, size_of_val(image.data()))?;
+    let image = texels(&image).map_err(|e| refused(format!("{e}")))?;
     let wrap = if map.clamp { Wrap::Clamp } else { Wrap::Repeat };
     // The file counts v from the bottom, textures from the top: v' = s v + o becomes s v + 1 − s − o.
     let ([s, t], [u, v]) = (map.scale.map(f64::from), map.offset.map(f64::from));

@@ -7,6 +7,7 @@ use core::fmt;
 
 use crate::Location;
 use crate::effect::Element;
+use crate::error::printable;
 use crate::xml::Node;
 
 /// Where a part of a scene is described.
@@ -45,6 +46,7 @@ impl Origins {
 
     /// Notes where an element is described; the first counts.
     pub(super) fn note_place(&mut self, element: Element, origin: Origin) {
-        self.places.entry(element).or_insert(origin);
+        let element_name = printable(origin.element);
+        self.places.entry(element).or_insert(Origin { element: element_name, ..origin });
     }
 }

@@ -16,6 +16,7 @@ use super::{Context, LoadOptions, LoadedScene, load_scene, scene};
 use crate::film::{Crop, ReconstructionFilter};
 use crate::geometry::Shape;
 use crate::light::Light;
+use crate::load::Sandbox;
 use crate::material::{ConductorIndex, Material};
 use crate::medium::{Boundary, Extinction, MediumId, Phase};
 use crate::scene::SamplerKind;
@@ -26,7 +27,7 @@ use crate::{ErrorKind, SceneError};
 fn load_with(content: &str, options: &LoadOptions) -> Result<LoadedScene, SceneError> {
     let text = format!("<scene version=\"3.0.0\">\n{content}\n</scene>");
     let description = parse_text(&text, Path::new("scene.xml"), &[], options.leniency)?;
-    scene::scene(Context::new(&description, options))
+    scene::scene(Context::new(&description, options, Sandbox::default()))
 }
 
 fn load(content: &str) -> Result<LoadedScene, SceneError> {

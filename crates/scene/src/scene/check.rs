@@ -1,7 +1,10 @@
 //! Whether the parts of a scene fit together.
 
-use super::{SceneParts, SurfaceInfo};
-use crate::geometry::ShapeId;
+use etendue_math::glam::Vec3;
+
+use super::{Scene, SceneParts, SurfaceInfo};
+use crate::camera::Camera;
+use crate::geometry::{Aabb, Geometry, ShapeId};
 use crate::light::{AreaLight, BeamLight, Light, LightError, LightId};
 use crate::texture::{Texture, TextureId, Textures};
 
@@ -45,15 +48,74 @@ pub enum InvalidScene {
         /// Why.
         error: LightError,
     },
+    /// A light is too bright for sums in single precision.
+    #[error(
+        "light {0} emits more than 2¹⁰⁰ W (10³⁰), which single precision cannot sum: dim all lights alike"
+    )]
+    Power(u32),
+    /// Shapes or the camera are where rays miss triangles.
+    #[error(
+        "the scene reaches beyond ±2⁴⁰ (10¹²), where single precision misses triangles: make everything smaller"
+    )]
+    TooLarge,
+    /// Shapes are so small that rays miss triangles.
+    #[error(
+        "the scene is smaller than 2⁻⁴⁰ (10⁻¹²), where single precision misses triangles: make everything larger"
+    )]
+    TooSmall,
     /// The crop is empty or reaches beyond the film.
     #[error("the crop is empty or does not lie within the film")]
     Crop,
 }
 
+/// The largest coordinate, and the inverse of the least size of a scene. Tests of rays against triangles take products of three
+/// distances: 2¹²⁰ times the 6 terms of a sum are below 2¹²⁸, and 2⁻¹²⁰ has a full mantissa.
+const RANGE: f32 = (1_u64 << 40) as f32;
+
+/// The largest power: that many photons of as many lights, samples and pixels are below 2¹²⁸.
+const MOST_POWER: f32 = (1_u128 << 100) as f32;
+
+/// Checks that no light of a scene is brighter than can be summed.
+pub(super) fn check_powers(scene: &Scene) -> Result<(), InvalidScene> {
+    for index in 0..scene.lights.len() as u32 {
+        let power = scene.light_power(LightId(index));
+        // False for NaN too.
+        let is_summable = power <= MOST_POWER;
+        if !is_summable {
+            return Err(InvalidScene::Power(index));
+        }
+    }
+    Ok(())
+}
+
+/// Checks that triangles are where rays find them.
+fn check_range(geometry: &Geometry, camera: &Camera) -> Result<(), InvalidScene> {
+    let mut bounds = geometry.level_bounds().filter(|bounds| !bounds.is_empty()).peekable();
+    if bounds.peek().is_none() {
+        return Ok(());
+    }
+    let eye = camera.position();
+    let is_within = |point: Vec3| point.abs().cmple(Vec3::splat(RANGE)).all();
+    if !is_within(eye) {
+        return Err(InvalidScene::TooLarge);
+    }
+    for Aabb { min, max } in bounds {
+        if !is_within(min) || !is_within(max) {
+            return Err(InvalidScene::TooLarge);
+        }
+        let size = (max - min).max_element();
+        if size > 0.0 && size < 1.0 / RANGE {
+            return Err(InvalidScene::TooSmall);
+        }
+    }
+    Ok(())
+}
+
 /// Checks every reference between the parts, and the lights; directional lights get a direction of
 /// unit length.
 pub(super) fn check(parts: &mut SceneParts) -> Result<(), InvalidScene> {
-    let SceneParts { geometry, surfaces, materials, textures, lights, media, film, .. } = parts;
+    let SceneParts { geometry, surfaces, materials, textures, lights, media, film, camera, .. } =
+        parts;
     let shapes = geometry.shapes().len();
     if surfaces.len() != shapes {
         return Err(InvalidScene::SurfaceCount { surfaces: surfaces.len(), shapes });
@@ -61,6 +123,7 @@ pub(super) fn check(parts: &mut SceneParts) -> Result<(), InvalidScene> {
     if !film.contains_crop() {
         return Err(InvalidScene::Crop);
     }
+    check_range(geometry, camera)?;
     for (index, surface) in surfaces.iter().enumerate() {
         let shape = index as u32;
         materials.get(surface.material).ok_or(InvalidScene::Material(shape))?;

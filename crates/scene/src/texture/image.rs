@@ -140,6 +140,16 @@ impl BitmapImage {
         Ok(Self { width, height, texels })
     }
 
+    /// Memory of the texels.
+    pub(crate) fn bytes(&self) -> usize {
+        match &self.texels {
+            Texels::Grey8 { texels, .. } => size_of_val(&**texels),
+            Texels::Rgb8 { texels, .. } => size_of_val(&**texels),
+            Texels::Grey(texels) => size_of_val(&**texels),
+            Texels::Rgb(texels) => size_of_val(&**texels),
+        }
+    }
+
     /// Number of columns.
     #[inline]
     pub fn width(&self) -> u32 {

@@ -1,15 +1,30 @@
 //! `$name` in attribute values.
 
+use alloc::collections::BTreeMap;
 use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
+use core::ops::Bound;
 
-/// One name that `$name` stands for.
+/// The longest value that names may be replaced to, in bytes, and all of them together: names stand for values with names in them,
+/// so that a few lines could ask for more than any memory.
+const LONGEST: usize = 1 << 20;
+const MOST: usize = 1 << 26;
+
+/// What one name stands for.
 #[derive(Clone, Debug)]
 struct Definition {
-    name: String,
     value: String,
     used: bool,
+}
+
+/// Why names cannot be replaced.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum SubstitutionError {
+    /// Nothing is defined by this name.
+    Undefined(String),
+    /// More than this many bytes would come of it.
+    TooLong(usize),
 }
 
 /// The names that are defined so far, by the caller or by `<default>`.
@@ -18,12 +33,16 @@ struct Definition {
 /// the longest defined name that fits is replaced, so `$size2` is `$size` followed by `2` when only
 /// `size` is defined.
 #[derive(Clone, Debug)]
-pub(crate) struct Definitions(Vec<Definition>);
+pub(crate) struct Definitions {
+    names: BTreeMap<String, Definition>,
+    /// Bytes that names were replaced by so far.
+    replaced: usize,
+}
 
 impl Definitions {
     /// The caller's definitions; of two with the same name the later wins.
     pub(crate) fn new(definitions: &[(String, String)]) -> Self {
-        let mut result = Self(Vec::new());
+        let mut result = Self { names: BTreeMap::new(), replaced: 0 };
         for (name, value) in definitions.iter().rev() {
             result.insert(name, value, false);
         }
@@ -36,17 +55,16 @@ impl Definitions {
     }
 
     fn insert(&mut self, name: &str, value: &str, used: bool) {
-        if !self.0.iter().any(|d| d.name == name) {
-            let at = self.0.partition_point(|d| d.name.len() >= name.len());
-            self.0.insert(at, Definition { name: name.into(), value: value.into(), used });
+        if !self.names.contains_key(name) {
+            self.names.insert(name.into(), Definition { value: value.into(), used });
         }
     }
 
     /// Replaces every `$name`; `\$` is a dollar sign.
     ///
     /// # Errors
-    /// The name that is not defined.
-    pub(crate) fn substitute(&mut self, text: &str) -> Result<String, String> {
+    /// A name that is not defined, a value that grows too long.
+    pub(crate) fn substitute(&mut self, text: &str) -> Result<String, SubstitutionError> {
         let mut result = String::with_capacity(text.len());
         let mut rest = text;
         while let Some(at) = rest.find('$') {
@@ -58,27 +76,60 @@ impl Definitions {
                 continue;
             }
             result.push_str(before);
-            let found = self.0.iter_mut().find(|d| after.starts_with(d.name.as_str()));
-            let Some(definition) = found else {
+            let Some((name, definition)) = longest_prefix(&self.names, after) else {
                 let end = after.find(|c: char| !c.is_alphanumeric() && c != '_');
-                return Err(after[..end.unwrap_or(after.len())].into());
+                let name = &after[..end.unwrap_or(after.len())];
+                return Err(SubstitutionError::Undefined(name.into()));
             };
-            definition.used = true;
+            let length = name.len();
             result.push_str(&definition.value);
-            rest = &after[definition.name.len()..];
+            self.replaced += definition.value.len();
+            for (length, most) in [(result.len(), LONGEST.max(text.len())), (self.replaced, MOST)] {
+                if length > most {
+                    return Err(SubstitutionError::TooLong(most));
+                }
+            }
+            if !definition.used {
+                let name: String = after[..length].into();
+                self.names.entry(name).and_modify(|definition| definition.used = true);
+            }
+            rest = &after[length..];
         }
         result.push_str(rest);
         Ok(result)
     }
 
-    /// The caller's definitions that nothing used, as `name=value`.
+    /// The caller's definitions that nothing used, as `name=value`, the longest names first.
     pub(crate) fn unused(&self) -> Vec<String> {
-        self.0.iter().filter(|d| !d.used).map(|d| format!("{}={}", d.name, d.value)).collect()
+        let mut unused: Vec<_> = self.names.iter().filter(|(_, d)| !d.used).collect();
+        unused.sort_by_key(|(name, _)| core::cmp::Reverse(name.len()));
+        unused.into_iter().map(|(name, d)| format!("{name}={}", d.value)).collect()
     }
 
     /// All names.
     pub(crate) fn names(&self) -> impl Iterator<Item = &str> {
-        self.0.iter().map(|d| d.name.as_str())
+        self.names.keys().map(String::as_str)
+    }
+}
+
+/// The longest name that a text begins with.
+///
+/// Whatever lies between a name that fits and the text begins with that name as well. So the last name that is not behind the text
+/// either fits, or no longer one fits than what the two have in common.
+fn longest_prefix<'a>(
+    names: &'a BTreeMap<String, Definition>,
+    text: &str,
+) -> Option<(&'a str, &'a Definition)> {
+    let mut text = text;
+    loop {
+        let not_behind = (Bound::Unbounded, Bound::Included(text));
+        let (name, definition) = names.range::<str, _>(not_behind).next_back()?;
+        if text.starts_with(name.as_str()) {
+            return Some((name, definition));
+        }
+        let pairs = text.char_indices().zip(name.chars());
+        let common = pairs.take_while(|((_, a), b)| a == b).last();
+        text = common.map_or("", |((at, c), _)| &text[..at + c.len_utf8()]);
     }
 }
 
@@ -110,8 +161,11 @@ mod tests {
     #[test]
     fn an_undefined_name_is_named_and_an_escaped_dollar_is_kept() {
         let mut d = given(&[("x", "1")]);
-        assert_eq!(d.substitute("$x ${y}"), Err(String::new()));
-        assert_eq!(d.substitute("$x $what_1-2"), Err("what_1".into()));
+        assert_eq!(d.substitute("$x ${y}"), Err(SubstitutionError::Undefined(String::new())));
+        assert_eq!(
+            d.substitute("$x $what_1-2"),
+            Err(SubstitutionError::Undefined("what_1".into()))
+        );
         assert_eq!(d.substitute(r"\$x $x"), Ok("$x 1".into()));
     }
 
@@ -121,6 +175,29 @@ mod tests {
         d.define_default("z", "3");
         assert_eq!(d.substitute("$x"), Ok("1".into()));
         assert_eq!(d.unused(), vec![String::from("y=2")]);
+    }
+
+    #[test]
+    fn the_longest_name_is_found_among_many_that_nearly_fit() {
+        let mut d = given(&[("a", "1"), ("ab", "2"), ("abb", "3"), ("abx", "4"), ("b", "5")]);
+        for (text, expected) in
+            [("$abd", "2d"), ("$abbb", "3b"), ("$ac", "1c"), ("$aé", "1é"), ("$bz", "5z")]
+        {
+            assert_eq!(d.substitute(text), Ok(expected.into()), "{text}");
+        }
+        assert_eq!(d.substitute("$Z"), Err(SubstitutionError::Undefined("Z".into())));
+        assert_eq!(d.substitute("$é"), Err(SubstitutionError::Undefined("é".into())));
+    }
+
+    #[test]
+    fn values_do_not_grow_without_end() {
+        let value = "x".repeat(1000);
+        let mut d = given(&[("x", &value)]);
+        assert_eq!(d.substitute(&"$x".repeat(1000)).map(|text| text.len()), Ok(1_000_000));
+        let too_long = d.substitute(&"$x".repeat(2000));
+        assert_eq!(too_long, Err(SubstitutionError::TooLong(LONGEST)));
+        let all = (0..100).try_for_each(|_| d.substitute(&"$x".repeat(1000)).map(drop));
+        assert_eq!(all, Err(SubstitutionError::TooLong(MOST)));
     }
 
     #[test]

@@ -11,6 +11,7 @@ mod names;
 mod nearest;
 mod numbers;
 mod parse;
+mod places;
 mod property;
 mod resolve;
 mod search;

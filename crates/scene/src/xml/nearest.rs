@@ -2,6 +2,9 @@
 
 use alloc::vec::Vec;
 
+/// Names that are longer, in bytes, are not compared, which takes the product of their lengths.
+const LONGEST: usize = 100;
+
 /// The candidate nearest to `name`, when it is near enough to be what was meant: at most one edit
 /// for every three characters, letter case aside.
 pub(crate) fn nearest<'a>(
@@ -11,6 +14,7 @@ pub(crate) fn nearest<'a>(
     let limit = (name.chars().count() / 3).clamp(1, 3);
     candidates
         .into_iter()
+        .filter(|candidate| name.len().max(candidate.len()) <= LONGEST)
         .map(|candidate| (edit_distance(name, candidate), candidate))
         .filter(|&(distance, _)| distance <= limit)
         .min_by_key(|&(distance, _)| distance)

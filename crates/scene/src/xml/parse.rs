@@ -10,13 +10,14 @@ use std::path::{Path, PathBuf};
 use etendue_math::glam::DMat4;
 use roxmltree::Node as Element;
 
-use super::definitions::Definitions;
+use super::definitions::{Definitions, SubstitutionError};
 use super::description::{Child, Description, Keyframe, Kind, Node, NodeId, Property, Value};
 use super::names::{parse_version, snake_case, upgrade};
 use super::nearest::nearest;
 use super::resolve::{Reference, resolve};
 use super::source::Source;
-use super::{property, source};
+use super::{SearchPath, property, source};
+use crate::load::Sandbox;
 use crate::{Location, SceneError, Warning};
 
 /// What to do with what is not understood but can be left out.
@@ -35,20 +36,26 @@ const DEEPEST_INCLUDE: usize = 15;
 /// Files that one scene may include, counting repetitions.
 const MOST_INCLUDES: usize = 4096;
 
-/// Reads a scene file and everything it includes.
+/// Bytes of all scene files of a scene together, counting repetitions.
+const MOST_TEXT: usize = source::LARGEST_FILE;
+/// Folders that are searched for files.
+const MOST_FOLDERS: usize = 64;
+
+/// Reads a scene file and everything it includes, which must lie in the sandbox.
 ///
 /// `definitions` replace `$name` in attribute values and win over `<default>`.
 ///
 /// # Errors
 /// A file that cannot be read or is not XML; elements, attributes or values that a scene file does
-/// not have; names that are not defined or defined twice; includes or references in a circle.
+/// not have; names that are not defined or defined twice; includes or references in a circle; files outside of the sandbox.
 pub fn parse_file(
     path: &Path,
     definitions: &[(String, String)],
     leniency: Leniency,
+    sandbox: &Sandbox,
 ) -> Result<Description, SceneError> {
     let text = source::read(path)?;
-    parse_text(&text, path, definitions, leniency)
+    parse(&text, path, definitions, leniency, sandbox)
 }
 
 /// Reads a scene from a text; `path` is its name in messages and the place relative file names start
@@ -62,6 +69,16 @@ pub fn parse_text(
     definitions: &[(String, String)],
     leniency: Leniency,
 ) -> Result<Description, SceneError> {
+    parse(text, path, definitions, leniency, &Sandbox::default())
+}
+
+fn parse(
+    text: &str,
+    path: &Path,
+    definitions: &[(String, String)],
+    leniency: Leniency,
+    sandbox: &Sandbox,
+) -> Result<Description, SceneError> {
     let mut parser = Parser {
         nodes: Vec::new(),
         ids: BTreeMap::new(),
@@ -70,8 +87,9 @@ pub fn parse_text(
         files: Vec::new(),
         warnings: Vec::new(),
         chain: Vec::new(),
+        text: 0,
     };
-    let root = parser.root(text, path)?;
+    let root = parser.root(text, path, &SearchPath::within(sandbox))?;
     let unused = parser.definitions.unused();
     if !unused.is_empty() {
         let message = format!("nothing in the scene uses the definition {}", unused.join(", "));
@@ -92,6 +110,8 @@ pub(super) struct Parser {
     warnings: Vec<Warning>,
     /// The file being read and those that include it, outermost first.
     chain: Vec<PathBuf>,
+    /// Bytes of the files read so far.
+    text: usize,
 }
 
 /// An element's attributes after substitution.
@@ -109,10 +129,11 @@ impl Parser {
         }
     }
 
-    fn root(&mut self, text: &str, path: &Path) -> Result<NodeId, SceneError> {
+    fn root(&mut self, text: &str, path: &Path, search: &SearchPath) -> Result<NodeId, SceneError> {
         self.enter(path, &Location::file(path))?;
+        self.text = text.len();
         let document = source::document(text, path)?;
-        let mut source = Source::new(text, path, document.root_element())?;
+        let mut source = Source::new(text, path, document.root_element(), search)?;
         let root = document.root_element();
         if root.tag_name().name() != "scene" {
             let message = format!("the outermost element is <{}>", root.tag_name().name());
@@ -156,8 +177,16 @@ impl Parser {
     ) -> Result<Attributes<'a>, SceneError> {
         let mut attributes = Attributes::new();
         for attribute in element.attributes() {
-            let value = self.definitions.substitute(attribute.value()).map_err(|name| {
+            let value = self.definitions.substitute(attribute.value()).map_err(|error| {
                 let location = source.at(attribute.range().start);
+                let name = match error {
+                    SubstitutionError::Undefined(name) => name,
+                    SubstitutionError::TooLong(most) => {
+                        let message =
+                            format!("the values that names stand for grow beyond {most} bytes");
+                        return SceneError::resource(location, message);
+                    }
+                };
                 let error = SceneError::scene(location, format!("${name} is not defined"));
                 match nearest(&name, self.definitions.names()) {
                     Some(known) => error.help(format!("did you mean ${known}?")),
@@ -211,6 +240,7 @@ impl Parser {
             search: source.search.clone(),
         });
         self.content(source, element, node, depth)?;
+        self.check_names(node)?;
         if source.is_before_version_2() {
             upgrade(&mut self.nodes[node.0])?;
         }
@@ -257,7 +287,8 @@ impl Parser {
         if let (Some(kind), true) = (kind, is_plugin) {
             let (node, name) = self.object(source, element, kind, depth + 1)?;
             let location = source.location(element);
-            return self.attach(parent, Child { name, node, location });
+            self.nodes[parent.0].children.push(Child { name, node, location });
+            return Ok(());
         }
         let attributes = self.attributes(source, element)?;
         let location = source.location(element);
@@ -275,6 +306,11 @@ impl Parser {
                 source.check_attributes(element, &["value"])?;
                 source.check_empty(element)?;
                 let folder = source.search.resolve(required("value")?);
+                let folder = folder.map_err(|error| source.named(element, error))?;
+                if source.search.len() >= MOST_FOLDERS {
+                    let message = format!("more than {MOST_FOLDERS} folders are searched");
+                    return Err(SceneError::resource(location, message));
+                }
                 if !folder.is_dir() {
                     let message = format!("there is no folder {}", folder.display());
                     return Err(SceneError::scene(location, message));
@@ -307,6 +343,7 @@ impl Parser {
                 source.check_attributes(element, &["filename", "name"])?;
                 source.check_empty(element)?;
                 let path = source.search.resolve(required("filename")?);
+                let path = path.map_err(|error| source.named(element, error))?;
                 let name = snake_case(required("name").unwrap_or_default());
                 self.include(source, &path, parent, (&name, location), depth)?;
             }
@@ -316,7 +353,7 @@ impl Parser {
                 source.check_attributes(element, &["name"])?;
                 let name = snake_case(required("name")?);
                 let value = Value::Transform(self.matrix(source, element)?);
-                self.set(parent, Property { name, value, location })?;
+                self.set(parent, Property { name, value, location });
             }
             "animation" => {
                 source.check_attributes(element, &["name"])?;
@@ -324,11 +361,11 @@ impl Parser {
                 let keyframes = element.children().filter(Element::is_element);
                 let keyframes = keyframes.map(|child| self.keyframe(source, child));
                 let value = Value::Animation(keyframes.collect::<Result<_, _>>()?);
-                self.set(parent, Property { name, value, location })?;
+                self.set(parent, Property { name, value, location });
             }
             _ => {
                 let (name, value) = property::value(source, element, &attributes)?;
-                self.set(parent, Property { name: snake_case(name), value, location })?;
+                self.set(parent, Property { name: snake_case(name), value, location });
             }
         }
         Ok(())
@@ -381,9 +418,18 @@ impl Parser {
             e
         };
         let text = source::read(path).map_err(through)?;
+        self.text = self.text.saturating_add(text.len());
+        if self.text > MOST_TEXT {
+            let message = format!(
+                "with the files that it includes, the scene has more than {MOST_TEXT} bytes"
+            );
+            return Err(SceneError::resource(location, message).help(
+                "keep meshes in files of their own, and make instances of what is repeated",
+            ));
+        }
         let document = source::document(&text, path)?;
         let root = document.root_element();
-        let mut included = Source::included(&text, path, root, &source.search)?;
+        let mut included = Source::new(&text, path, root, &source.search)?;
         let tag = root.tag_name().name();
         match Kind::from_tag(tag) {
             Some(Kind::Scene) => {
@@ -392,7 +438,7 @@ impl Parser {
             }
             Some(kind) => {
                 let (node, _) = self.object(&mut included, root, kind, depth + 1)?;
-                self.attach(parent, Child { name: name.into(), node, location })?;
+                self.nodes[parent.0].children.push(Child { name: name.into(), node, location });
             }
             None => return Err(included.unknown_element(root)),
         }
@@ -400,32 +446,29 @@ impl Parser {
         Ok(())
     }
 
-    /// Adds a parameter, which must be the first of its name.
-    fn set(&mut self, parent: NodeId, property: Property) -> Result<(), SceneError> {
-        self.check_first(parent, &property.name, &property.location)?;
+    fn set(&mut self, parent: NodeId, property: Property) {
         self.nodes[parent.0].properties.push(property);
-        Ok(())
     }
 
-    fn attach(&mut self, parent: NodeId, child: Child) -> Result<(), SceneError> {
-        self.check_first(parent, &child.name, &child.location)?;
-        self.nodes[parent.0].children.push(child);
-        Ok(())
-    }
-
-    fn check_first(&self, node: NodeId, name: &str, at: &Location) -> Result<(), SceneError> {
+    /// Refuses names that are given twice.
+    fn check_names(&self, node: NodeId) -> Result<(), SceneError> {
         let node = &self.nodes[node.0];
-        let first = node.properties.iter().map(|p| (&p.name, &p.location));
-        let mut all = first.chain(node.children.iter().map(|c| (&c.name, &c.location)));
         // Plugins of a scene are many, and their names mean nothing there.
-        if name.is_empty() || node.kind == Kind::Scene {
+        if node.kind == Kind::Scene {
             return Ok(());
         }
-        match all.find(|(n, _)| *n == name) {
+        let properties = node.properties.iter().map(|p| (&p.name, &p.location));
+        let children = node.children.iter().map(|c| (&c.name, &c.location));
+        let mut named: Vec<_> =
+            properties.chain(children).filter(|(name, _)| !name.is_empty()).collect();
+        let place = |location: &Location| (location.line, location.column);
+        named.sort_by(|(a, at), (b, bt)| a.cmp(b).then_with(|| place(at).cmp(&place(bt))));
+        match named.windows(2).find(|pair| pair[0].0 == pair[1].0) {
             None => Ok(()),
-            Some((_, first)) => {
+            Some(pair) => {
+                let [(name, first), (_, second)] = [pair[0], pair[1]];
                 let message = format!("“{name}” is given twice, the first time at {first}");
-                Err(SceneError::scene(at.clone(), message))
+                Err(SceneError::scene(second.clone(), message))
             }
         }
     }

@@ -185,8 +185,9 @@ impl<'a> Reader<'a> {
         match (self.optional("value"), self.optional("filename")) {
             (Some(text), None) => self.inline_spectrum(text),
             (None, Some(name)) => {
-                let path = self.source.search.resolve(name);
-                let text = source::read(&path)?;
+                let named = |error| self.source.named(self.element, error);
+                let path = self.source.search.resolve(name).map_err(named)?;
+                let text = source::read(&path).map_err(named)?;
                 let mut samples = Vec::new();
                 for (number, line) in (1..).zip(text.lines()) {
                     let content = line.split('#').next().unwrap_or_default();

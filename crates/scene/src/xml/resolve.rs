@@ -33,21 +33,47 @@ const LONGEST_CHAIN: usize = 128;
 /// # Errors
 /// A name that no plugin has (a warning when lenient), a plugin that contains itself.
 pub(super) fn resolve(parser: &mut Parser, leniency: Leniency) -> Result<(), SceneError> {
-    // Backwards, so that earlier positions stay valid.
-    for reference in core::mem::take(&mut parser.references).into_iter().rev() {
-        let Reference { from, to, name, position, location } = reference;
-        let Some(&node) = parser.ids.get(&to) else {
-            let error = SceneError::scene(location, format!("nothing has the id “{to}”"));
-            let error = match nearest(&to, parser.ids.keys().map(String::as_str)) {
-                Some(known) => error.help(format!("did you mean “{known}”?")),
-                None => error,
-            };
-            parser.forgive(leniency, error)?;
-            continue;
-        };
-        parser.nodes[from.0].children.insert(position, Child { name, node, location });
+    // By plugin; those of one stand in the order of the file.
+    let mut references = core::mem::take(&mut parser.references);
+    references.sort_by_key(|reference| reference.from);
+    let mut references = references.into_iter().peekable();
+    while let Some(from) = references.peek().map(|reference| reference.from) {
+        let mut own = core::mem::take(&mut parser.nodes[from.0].children).into_iter();
+        let mut children = Vec::new();
+        let mut before = 0;
+        while let Some(reference) = references.next_if(|reference| reference.from == from) {
+            let Reference { to, name, position, location, .. } = reference;
+            children.extend(own.by_ref().take(position - before));
+            before = position;
+            match parser.ids.get(&to) {
+                Some(&node) => children.push(Child { name, node, location }),
+                None => parser.dangling(leniency, &to, location)?,
+            }
+        }
+        children.extend(own);
+        parser.nodes[from.0].children = children;
     }
     check_chains(&parser.nodes)
+}
+
+impl Parser {
+    /// Refuses a reference to nothing, or leaves it out with a warning.
+    fn dangling(
+        &mut self,
+        leniency: Leniency,
+        to: &str,
+        location: Location,
+    ) -> Result<(), SceneError> {
+        let error = SceneError::scene(location, format!("nothing has the id “{to}”"));
+        // A warning has no advice, which takes a look at all names.
+        let ids = (leniency == Leniency::Strict).then_some(&self.ids);
+        let known = ids.and_then(|ids| nearest(to, ids.keys().map(String::as_str)));
+        let error = match known {
+            Some(known) => error.help(format!("did you mean “{known}”?")),
+            None => error,
+        };
+        self.forgive(leniency, error)
+    }
 }
 
 /// Refuses plugins that contain themselves, and chains of plugins so long that walking them could

@@ -3,19 +3,18 @@
 use alloc::borrow::ToOwned;
 use alloc::format;
 use alloc::string::{String, ToString};
-use alloc::vec::Vec;
 use std::path::{Path, PathBuf};
 
 use roxmltree::{Document, Node as Element, ParsingOptions};
 
 use super::description::Kind;
 use super::nearest::nearest;
-use super::{SearchPath, property};
+use super::{SearchPath, places::Places, property};
 use crate::load::read_asset;
 use crate::{Location, SceneError};
 
 /// The largest scene file that is read, in bytes; meshes and textures have files of their own.
-const LARGEST_FILE: usize = 1 << 28;
+pub(super) const LARGEST_FILE: usize = 1 << 28;
 
 /// The element names a scene file may have beside those of plugins and of values.
 const OTHER_ELEMENTS: [&str; 8] =
@@ -46,8 +45,14 @@ pub(super) fn read(path: &Path) -> Result<String, SceneError> {
 /// that nothing is fetched and nothing grows.
 ///
 /// # Errors
-/// Text that is not well-formed XML.
+/// Text that is not well-formed XML; more attributes than an element can have.
 pub(super) fn document<'a>(text: &'a str, path: &Path) -> Result<Document<'a>, SceneError> {
+    if let Some(byte) = overloaded(text) {
+        let (line, column) = Places::of(text).of_byte(byte);
+        let location = Location { file: path.to_owned(), line: Some(line), column: Some(column) };
+        let message = format!("an element has more than {MOST_ATTRIBUTES} attributes");
+        return Err(SceneError::scene(location, message));
+    }
     let options = ParsingOptions { allow_dtd: false, ..ParsingOptions::default() };
     Document::parse_with_options(text, options).map_err(|e| {
         let position = e.pos();
@@ -72,48 +77,82 @@ pub(super) fn document<'a>(text: &'a str, path: &Path) -> Result<Document<'a>, S
     })
 }
 
+/// Attributes of an element, of which those known have seven at most. The parser compares each with each and copies the namespaces
+/// of an element to those within.
+const MOST_ATTRIBUTES: usize = 64;
+
+/// The place of the first tag with more than [`MOST_ATTRIBUTES`] attributes, in text that may be no XML: quotes are counted in tags
+/// and skipped with what is between them, as are comments and the like.
+fn overloaded(text: &str) -> Option<usize> {
+    let bytes = text.as_bytes();
+    let find = |what: &str, from: usize| text[from..].find(what).map(|at| from + at + what.len());
+    let mut at = 0;
+    while let Some(found) = memchr(b'<', bytes, at) {
+        let rest = &text[found..];
+        let skipped = [("<!--", "-->"), ("<![CDATA[", "]]>"), ("<?", "?>")];
+        if let Some((begin, end)) = skipped.into_iter().find(|(begin, _)| rest.starts_with(begin)) {
+            at = find(end, found + begin.len())?;
+            continue;
+        }
+        let mut attributes = 0;
+        at = found + 1;
+        loop {
+            let quote = at + bytes[at..].iter().position(|b| matches!(b, b'"' | b'\'' | b'>'))?;
+            if bytes[quote] == b'>' {
+                at = quote + 1;
+                break;
+            }
+            attributes += 1;
+            if attributes > MOST_ATTRIBUTES {
+                return Some(found);
+            }
+            at = memchr(bytes[quote], bytes, quote + 1)? + 1;
+        }
+    }
+    None
+}
+
+/// The next byte of a value.
+fn memchr(byte: u8, bytes: &[u8], from: usize) -> Option<usize> {
+    bytes[from..].iter().position(|&b| b == byte).map(|at| from + at)
+}
+
 /// One scene file while it is read.
 pub(super) struct Source<'a> {
-    text: &'a str,
     path: PathBuf,
-    /// Where each line starts.
-    lines: Vec<usize>,
+    places: Places<'a>,
     pub(super) version: [u32; 3],
     pub(super) search: SearchPath,
 }
 
 impl<'a> Source<'a> {
-    /// The scene file itself.
+    /// A file that searches `search` beside its own folder: that of the file which includes it.
     pub(super) fn new(
-        text: &'a str,
-        path: &Path,
-        root: Element<'_, '_>,
-    ) -> Result<Self, SceneError> {
-        Self::included(text, path, root, &SearchPath::default())
-    }
-
-    /// A file that is included by one which searches `search`.
-    pub(super) fn included(
         text: &'a str,
         path: &Path,
         root: Element<'_, '_>,
         search: &SearchPath,
     ) -> Result<Self, SceneError> {
-        let lines = core::iter::once(0).chain(text.match_indices('\n').map(|(i, _)| i + 1));
         let mut search = search.clone();
         search.prepend_folder_of(path);
         let mut source =
-            Self { text, path: path.to_owned(), lines: lines.collect(), version: [0; 3], search };
+            Self { path: path.to_owned(), places: Places::of(text), version: [0; 3], search };
         source.version = Self::parse_version(source.location(root), root)?;
         Ok(source)
     }
 
     /// The place of a byte.
     pub(super) fn at(&self, byte: usize) -> Location {
-        let line = self.lines.partition_point(|&start| start <= byte);
-        let start = self.lines[line - 1];
-        let column = self.text.get(start..byte).map(|s| 1 + s.chars().count() as u32);
-        Location { file: self.path.clone(), line: Some(line as u32), column }
+        let (line, column) = self.places.of_byte(byte);
+        Location { file: self.path.clone(), line: Some(line), column: Some(column) }
+    }
+
+    /// The error of a file that an element names, with its place.
+    pub(super) fn named(&self, element: Element<'_, '_>, mut error: SceneError) -> SceneError {
+        if error.location.line.is_none() {
+            error.message = format!("{} (named at {})", error.message, self.location(element));
+        }
+        error
     }
 
     /// The place of an element.

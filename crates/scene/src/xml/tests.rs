@@ -8,6 +8,7 @@ use std::path::Path;
 use etendue_math::glam::{DMat4, DVec3};
 
 use super::*;
+use crate::load::Sandbox;
 use crate::{ErrorKind, SceneError};
 
 fn parse_version(version: &str, content: &str) -> Result<Description, SceneError> {
@@ -284,12 +285,13 @@ fn includes_bring_their_content_their_version_and_their_defaults() {
         ),
         ("one.xml", r#"<bsdf version="3.0.0" type="diffuse" id="b"/>"#),
     ]);
-    let description = parse_file(&scene, &[], Leniency::Strict).unwrap();
+    let description = parse_file(&scene, &[], Leniency::Strict, &Sandbox::default()).unwrap();
     let plugins: Vec<_> = description.nodes().iter().map(|n| n.plugin.as_str()).collect();
     assert_eq!(plugins, ["scene", "s", "diffuse", "sphere"]);
     assert_eq!(description.nodes()[1].properties[0].name, "max_depth");
     assert_eq!(description.files.len(), 3);
-    assert!(description.nodes()[1].search.resolve("part.xml").ends_with("lib/part.xml"));
+    let found = description.nodes()[1].search.resolve("part.xml").unwrap();
+    assert!(found.ends_with("lib/part.xml"));
 }
 
 #[test]
@@ -298,12 +300,13 @@ fn circular_and_missing_includes_name_the_files() {
         ("a.xml", "<scene version=\"3.0.0\">\n<include filename=\"b.xml\"/></scene>"),
         ("b.xml", "<scene version=\"3.0.0\">\n\n<include filename=\"a.xml\"/></scene>"),
     ]);
-    let error = parse_file(&scene, &[], Leniency::Strict).unwrap_err().to_string();
+    let error =
+        parse_file(&scene, &[], Leniency::Strict, &Sandbox::default()).unwrap_err().to_string();
     assert!(error.contains("b.xml:3:1: a file includes itself"), "{error}");
     assert!(error.matches("a.xml").count() == 2, "{error}");
     let (_folder, scene) =
         files(&[("a.xml", "<scene version=\"3.0.0\">\n<include filename=\"b.xml\"/></scene>")]);
-    let error = parse_file(&scene, &[], Leniency::Strict).unwrap_err();
+    let error = parse_file(&scene, &[], Leniency::Strict, &Sandbox::default()).unwrap_err();
     assert_eq!(error.kind, ErrorKind::Io);
     assert!(error.to_string().contains("b.xml"), "{error}");
     assert!(error.to_string().contains("a.xml:2"), "{error}");
@@ -312,14 +315,16 @@ fn circular_and_missing_includes_name_the_files() {
 #[test]
 fn files_that_cannot_be_scenes_are_refused() {
     let folder = tempfile::tempdir().unwrap();
-    let error = parse_file(folder.path(), &[], Leniency::Strict).unwrap_err();
+    let error = parse_file(folder.path(), &[], Leniency::Strict, &Sandbox::default()).unwrap_err();
     assert_eq!(error.kind, ErrorKind::Io);
     let path = folder.path().join("x.xml");
     std::fs::write(&path, b"<scene\n\xff").unwrap();
-    let error = parse_file(&path, &[], Leniency::Strict).unwrap_err().to_string();
+    let error =
+        parse_file(&path, &[], Leniency::Strict, &Sandbox::default()).unwrap_err().to_string();
     assert!(error.contains("x.xml:2: the text is not UTF-8"), "{error}");
     std::fs::write(&path, b"\xff\xfe<\0").unwrap();
-    let error = parse_file(&path, &[], Leniency::Strict).unwrap_err().to_string();
+    let error =
+        parse_file(&path, &[], Leniency::Strict, &Sandbox::default()).unwrap_err().to_string();
     assert!(error.contains("UTF-16"), "{error}");
 }
 
@@ -333,11 +338,12 @@ fn spectra_are_read_from_files() {
         ),
         ("s.spd", "# silver\n400 1.5\n\n500 2.5 # end\n"),
     ]);
-    let description = parse_file(&scene, &[], Leniency::Strict).unwrap();
+    let description = parse_file(&scene, &[], Leniency::Strict, &Sandbox::default()).unwrap();
     let samples = Vec::from([(400.0, 1.5), (500.0, 2.5)]);
     let value = &description.nodes()[1].properties[0].value;
     assert_eq!(*value, Value::Spectrum(SpectrumValue::Samples(samples)));
     std::fs::write(scene.with_file_name("s.spd"), "400 1\n500 x\n").unwrap();
-    let error = parse_file(&scene, &[], Leniency::Strict).unwrap_err().to_string();
+    let error =
+        parse_file(&scene, &[], Leniency::Strict, &Sandbox::default()).unwrap_err().to_string();
     assert!(error.contains("s.spd:2: expected a wavelength and a value"), "{error}");
 }

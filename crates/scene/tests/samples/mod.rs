@@ -29,9 +29,13 @@ pub(crate) fn samples() -> Vec<(String, Vec<u8>)> {
                 bytes
             }),
         ),
-        ("mesh.serialized".into(), serialized(4)),
-        ("old.serialized".into(), serialized(3)),
+        ("mesh.serialized".into(), serialized(4, flate2::Compression::default())),
+        ("stored.serialized".into(), serialized(4, flate2::Compression::none())),
+        ("old.serialized".into(), serialized(3, flate2::Compression::default())),
+        ("two.curves".into(), CURVES.into()),
+        ("light.spd".into(), SPECTRUM.into()),
         ("model.glb".into(), glb()),
+        ("model.gltf".into(), gltf()),
         ("grey.vol".into(), volume(1)),
         ("rgb.vol".into(), volume(3)),
         ("grey.pfm".into(), floats(b"Pf 2 3 -1.0\n", &[0.5; 6])),
@@ -116,6 +120,10 @@ const OLD: &str = r#"<scene version="0.6.0">
 const INCLUDED: &str = r#"<scene version="3.0.0"><emitter type="constant"><rgb name="radiance" value="0.1"/></emitter></scene>
 "#;
 
+const SPECTRUM: &str = "# nm, W/(m² sr nm)\n380 0.25\n500 1e0\n\n780.5 .5 # the end\n";
+
+const CURVES: &str = "0 0 0 0.1\n1 0 0 0.1\n2 1 0 0.05\n3 1 -1e-1 0\n\n0 1 0 .2\r\n1 1 0 .2\n1 2 0 .2\n2 2 2 .2\n3 2 2 .2\n";
+
 const OBJ: &str = "\u{feff}# two quads\r\nmtllib mesh.mtl\no first\nv 0 0 0\nv 1 \\\n0 0 .1 .2 .3\nv 1 1 -1e-2\nv 0 1 0\nvt 0 0\nvt 1.0\n\
 vn 0 0 1\nusemtl wood\ns off\nf 1/1/1 2/2/1 3//1 4\ng second\nusemtl glass\nf -4 -3/-1 -1//-1\nl 1 2\nf 1 2\n";
 
@@ -181,7 +189,7 @@ fn ply(format: &str, encode: impl Fn(&Number) -> Vec<u8>) -> Vec<u8> {
 }
 
 /// Two meshes of one triangle each: with normals, texture coordinates and colours in single precision, and bare in double.
-fn serialized(version: u16) -> Vec<u8> {
+fn serialized(version: u16, compression: flate2::Compression) -> Vec<u8> {
     let (mut file, mut offsets) = (Vec::new(), Vec::new());
     for flags in [0x1_u32 | 0x2 | 0x8, 0x2000 | 0x10] {
         offsets.push(file.len() as u64);
@@ -201,7 +209,7 @@ fn serialized(version: u16) -> Vec<u8> {
             content.extend(numbers.iter().flat_map(|x: &f64| x.to_le_bytes()));
         }
         content.extend([0_u32, 1, 2].iter().flat_map(|index| index.to_le_bytes()));
-        let mut zlib = ZlibEncoder::new(file, flate2::Compression::default());
+        let mut zlib = ZlibEncoder::new(file, compression);
         zlib.write_all(&content).expect("memory");
         file = zlib.finish().expect("memory");
     }
@@ -231,6 +239,14 @@ fn glb() -> Vec<u8> {
         bytes.extend(chunk);
     }
     bytes
+}
+
+/// The same triangle, its buffer in the document.
+fn gltf() -> Vec<u8> {
+    let data = "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAABAAIAAAA=";
+    let buffer =
+        format!(r#"{{"uri":"data:application/octet-stream;base64,{data}","byteLength":44}}"#);
+    GLTF.replace(r#"{"byteLength":44}"#, &buffer).into_bytes()
 }
 
 fn volume(channels: i32) -> Vec<u8> {

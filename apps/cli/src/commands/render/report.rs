@@ -1,5 +1,6 @@
 //! What a finished render says about itself.
 
+use etendue_math::Spectrum;
 use etendue_renderer::SampleAddress;
 use etendue_renderer::progressive::{CONFIDENCE, ImageError, factor_for_half};
 use etendue_scene::Scene;
@@ -22,6 +23,21 @@ pub(super) struct Report<'a> {
 impl Report<'_> {
     pub(super) fn non_finite(&self) -> u64 {
         self.drawing.statistics.non_finite.count()
+    }
+
+    /// Pixels whose sums of samples went beyond single precision.
+    pub(super) fn overflowed(&self) -> usize {
+        let pixels = self.drawing.image.pixels().iter();
+        pixels.filter(|pixel| !pixel.is_finite()).count()
+    }
+
+    pub(super) fn warn_of_overflow(&self) {
+        let count = self.overflowed();
+        if count > 0 {
+            eprintln!(
+                "etendue: warning: {count} pixels are brighter than single precision can hold; dim all lights alike"
+            );
+        }
     }
 
     fn mrays_per_second(&self) -> f64 {

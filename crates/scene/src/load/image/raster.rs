@@ -5,15 +5,19 @@ use alloc::vec::Vec;
 use std::io::Cursor;
 use std::path::Path;
 
-use ::image::{DynamicImage, ImageDecoder as _, ImageFormat, ImageReader, Limits};
+use ::image::{DynamicImage, ImageDecoder as _, ImageError, ImageFormat, ImageReader, Limits};
 
-use crate::error::SceneError;
+use crate::error::{Location, SceneError};
 
 use super::super::srgb;
 use super::{Encoding, Image, check_size, malformed, most_samples};
 
 pub(super) fn parse(bytes: &[u8], path: &Path, encoding: Encoding) -> Result<Image, SceneError> {
-    let fail = |error| malformed(path, format!("{error}"));
+    let fail = |error: ImageError| match error {
+        ImageError::Limits(error) => SceneError::resource(Location::file(path), format!("{error}")),
+        // Some end with a line break.
+        error => malformed(path, format!("{error}").trim_end()),
+    };
     let Some(format) = format_of(bytes, path) else {
         let message = "not an image of a known format";
         return Err(

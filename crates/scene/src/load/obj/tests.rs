@@ -258,7 +258,7 @@ fn files_on_disk_bring_their_library() {
     std::fs::write(&path, format!("mtllib my lib.mtl\n{SQUARE}usemtl m\nf 1 2 3"))
         .expect("written");
     std::fs::write(folder.path().join("my lib.mtl"), "newmtl m\nmap_Kd t.png").expect("written");
-    let s = load_obj(&path, TexCoords::Flipped).expect("a valid file");
+    let s = load_obj(&path, TexCoords::Flipped, &Sandbox::default()).expect("a valid file");
     assert_eq!((s.meshes[0].material, s.warnings.len()), (Some(0), 0));
     let map = s.materials[0].diffuse_map.as_ref().map(|map| map.path.clone());
     assert_eq!(map, Some(folder.path().join("t.png")));

@@ -155,6 +155,9 @@ pub(super) fn parse<'a>(
         let mut words = line.split_ascii_whitespace();
         match words.next() {
             None | Some("comment" | "obj_info") => {}
+            Some("format") if format.is_some() => {
+                return Err(at("the format is stated twice".into()));
+            }
             Some("format") => format = Some(parse_format(words).map_err(at)?),
             Some("element") => {
                 let element = parse_element(words, number).map_err(at)?;
@@ -171,6 +174,10 @@ pub(super) fn parse<'a>(
                 let Some(element) = elements.last_mut() else {
                     return Err(at("a property comes before the first element".into()));
                 };
+                if element.properties.iter().any(|p| p.name == property.name) {
+                    let message = format!("the property '{}' is declared twice", property.name);
+                    return Err(at(message));
+                }
                 element.properties.push(property);
             }
             Some("end_header") => break,

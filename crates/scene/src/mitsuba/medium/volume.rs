@@ -87,13 +87,14 @@ fn grid<'a>(
     let Some(name) = reader.string("filename")? else {
         return Err(reader.error("filename", format!("{} has no “filename”", reader.title())));
     };
-    let path = reader.node().search.resolve(name);
-    let VolumeFile { grid, bounds } = load_volume(&path).map_err(|mut error| {
+    let named = |mut error: SceneError| {
         let place = reader.location("filename");
         error.message = format!("{} (named at {place})", error.message);
         error
-    })?;
-    context.files.push(path);
+    };
+    let path = reader.node().search.resolve(name).map_err(named)?;
+    let VolumeFile { grid, bounds } = load_volume(&path).map_err(named)?;
+    context.read(&path, grid.bytes()).map_err(named)?;
     let mut to_world = reader.transform("to_world")?;
     if reader.boolean("use_grid_bbox", false)? {
         to_world = placed(&to_world, &bounds).map_err(|error| {

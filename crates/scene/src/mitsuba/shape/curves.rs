@@ -32,7 +32,8 @@ fn curves<'a>(
 ) -> Result<Item, SceneError> {
     let path = path(reader)?;
     let file = load_curves(&path, basis).map_err(|error| asset_error(error, reader))?;
-    context.files.push(path);
+    let unfolded = size_of_val(&*file.points);
+    context.read(&path, unfolded).map_err(|error| asset_error(error, reader))?;
     context.warnings.extend(file.warnings);
     let (to_world, motion) = placed(reader, context)?;
     let curves = Curves::new(basis, file.points, &file.lengths, &to_world);

@@ -2,7 +2,7 @@
 
 use alloc::format;
 use alloc::string::String;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use super::super::Context;
 use super::super::reader::PluginReader;
@@ -21,7 +21,7 @@ pub(super) fn obj<'a>(
 ) -> Result<Item, SceneError> {
     let path = path(reader)?;
     let file = load_obj_merged(&path, tex_coords(reader, true)?);
-    mesh(reader, context, path, file)
+    mesh(reader, context, &path, file)
 }
 
 /// The parameters of `obj`, `flip_tex_coords` being false by default.
@@ -31,7 +31,7 @@ pub(super) fn ply<'a>(
 ) -> Result<Item, SceneError> {
     let path = path(reader)?;
     let file = load_ply(&path, tex_coords(reader, false)?);
-    mesh(reader, context, path, file)
+    mesh(reader, context, &path, file)
 }
 
 /// `filename`, `shape_index` (0), `face_normals` (false), `flip_normals` (false), `to_world`.
@@ -43,7 +43,7 @@ pub(super) fn serialized<'a>(
     let index = reader.integer("shape_index")?.unwrap_or(0);
     let index = usize::try_from(index)
         .map_err(|_| reader.error("shape_index", format!("there is no shape {index}")))?;
-    mesh(reader, context, path.clone(), load_serialized(&path, index))
+    mesh(reader, context, &path, load_serialized(&path, index))
 }
 
 /// The cube between −1 and 1: `flip_normals` (false), `to_world`.
@@ -59,7 +59,9 @@ pub(super) fn cube<'a>(
 /// The file of `filename`.
 pub(super) fn path(reader: &mut PluginReader<'_>) -> Result<PathBuf, SceneError> {
     match reader.string("filename")? {
-        Some(name) => Ok(reader.node().search.resolve(name)),
+        Some(name) => {
+            reader.node().search.resolve(name).map_err(|error| asset_error(error, reader))
+        }
         None => Err(reader.error("filename", format!("{} has no “filename”", reader.title()))),
     }
 }
@@ -81,11 +83,11 @@ pub(super) fn asset_error(mut error: SceneError, reader: &PluginReader<'_>) -> S
 fn mesh<'a>(
     reader: &mut PluginReader<'a>,
     context: &mut Context<'a>,
-    path: PathBuf,
+    path: &Path,
     file: Result<MeshFile, SceneError>,
 ) -> Result<Item, SceneError> {
     let file = file.map_err(|error| asset_error(error, reader))?;
-    context.files.push(path);
+    context.read(path, file.mesh.bytes()).map_err(|error| asset_error(error, reader))?;
     context.warnings.extend(file.warnings);
     let (to_world, motion) = placed(reader, context)?;
     let is_flat = reader.boolean("face_normals", file.face_normals)?;

@@ -18,7 +18,8 @@ pub(super) fn sdfgrid<'a>(
 ) -> Result<Item, SceneError> {
     let path = path(reader)?;
     let samples = load_sdf(&path).map_err(|error| asset_error(error, reader))?;
-    context.files.push(path);
+    let unfolded = size_of_val(samples.values());
+    context.read(&path, unfolded).map_err(|error| asset_error(error, reader))?;
     let normals = match reader.string("normals")? {
         None | Some("smooth") => SdfNormals::Smooth,
         Some("analytic") => SdfNormals::Analytic,
