@@ -22,14 +22,37 @@ pub struct RayCounts {
     pub shadow: u64,
     /// From a surface in a direction sampled from its reflection model.
     pub indirect: u64,
+    /// Not traced: paths that had the largest number of edges where they might have gone on.
+    pub cut: u64,
+    /// What these paths still carried, in units of 2⁻²⁰ of what the camera's rays do: the largest channel of the throughput, summed as integers.
+    pub cut_throughput: u64,
 }
 
 impl RayCounts {
+    /// Counts a path that is cut, and what it carried.
+    #[inline]
+    pub(crate) fn cut(&mut self, throughput: f32) {
+        self.cut += 1;
+        // A conversion that limits, and takes NaN for 0: such a sample is counted elsewhere.
+        self.cut_throughput = self.cut_throughput.saturating_add((throughput * CUT_UNITS) as u64);
+    }
+
+    /// The share of the camera's throughput that was cut: a bound on the share of the light that is missing, where nothing that was left out
+    /// is brighter than what was found.
+    ///
+    /// * `samples`: from the camera.
+    pub fn cut_share(&self, samples: u64) -> f64 {
+        self.cut_throughput as f64 / f64::from(CUT_UNITS) / samples.max(1) as f64
+    }
+
     /// All rays together.
     pub fn total(&self) -> u64 {
         self.camera + self.shadow + self.indirect
     }
 }
+
+/// Throughputs of cut paths are summed in this fraction of 1.
+const CUT_UNITS: f32 = (1 << 20) as f32;
 
 /// How many samples were not finite, and the first of them.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -89,6 +112,9 @@ impl Statistics {
         self.rays.camera += other.rays.camera;
         self.rays.shadow += other.rays.shadow;
         self.rays.indirect += other.rays.indirect;
+        self.rays.cut += other.rays.cut;
+        self.rays.cut_throughput =
+            self.rays.cut_throughput.saturating_add(other.rays.cut_throughput);
         self.non_finite.count += other.non_finite.count;
         for &address in &other.non_finite.first {
             self.non_finite.keep(address);
@@ -99,13 +125,14 @@ impl Statistics {
 /// How statistics are stored.
 impl Statistics {
     /// Fewest bytes: without addresses.
-    pub(crate) const LEAST_BYTES: usize = 5 * 8 + 1;
+    pub(crate) const LEAST_BYTES: usize = 7 * 8 + 1;
 
     pub(crate) fn write(&self, bytes: &mut Vec<u8>) {
-        let RayCounts { camera, shadow, indirect } = self.rays;
-        for count in [self.samples, camera, shadow, indirect, self.non_finite.count] {
+        let RayCounts { camera, shadow, indirect, cut, cut_throughput } = self.rays;
+        for count in [self.samples, camera, shadow, indirect, self.non_finite.count, cut] {
             bytes.u64(count);
         }
+        bytes.u64(cut_throughput);
         bytes.u8(self.non_finite.first.len() as u8);
         for address in &self.non_finite.first {
             bytes.u32(address.row);
@@ -115,7 +142,7 @@ impl Statistics {
     }
 
     pub(crate) fn read(reader: &mut Reader<'_>) -> Result<Self, StateError> {
-        let mut counts = [0; 5];
+        let mut counts = [0; 6];
         for count in &mut counts {
             *count = reader.u64()?;
             // Counts of many tiles are added.
@@ -123,7 +150,8 @@ impl Statistics {
                 return Err(StateError::new("a count is too large"));
             }
         }
-        let [samples, camera, shadow, indirect, count] = counts;
+        let [samples, camera, shadow, indirect, count, cut] = counts;
+        let cut_throughput = reader.u64()?;
         let kept = usize::from(reader.u8()?);
         if kept as u64 != count.min(NonFiniteSamples::KEPT as u64) {
             return Err(StateError::new("addresses of samples are missing"));
@@ -133,7 +161,11 @@ impl Statistics {
             let (row, column, sample) = (reader.u32()?, reader.u32()?, reader.u64()?);
             non_finite.keep(SampleAddress { row, column, sample });
         }
-        Ok(Self { samples, rays: RayCounts { camera, shadow, indirect }, non_finite })
+        Ok(Self {
+            samples,
+            rays: RayCounts { camera, shadow, indirect, cut, cut_throughput },
+            non_finite,
+        })
     }
 }
 
@@ -168,7 +200,13 @@ mod tests {
     #[test]
     fn statistics_come_back_and_a_count_without_its_addresses_is_refused() {
         for rows in [0..0, 0..3, 0..40] {
-            let rays = RayCounts { camera: 7, shadow: 1 << 40, indirect: 3 };
+            let rays = RayCounts {
+                camera: 7,
+                shadow: 1 << 40,
+                indirect: 3,
+                cut: 2,
+                cut_throughput: u64::MAX,
+            };
             let statistics = Statistics { rays, ..part(rows) };
             let mut bytes = Vec::new();
             statistics.write(&mut bytes);

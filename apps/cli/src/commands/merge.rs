@@ -98,6 +98,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Exit, Failure> {
         seconds,
         non_finite: statistics.non_finite.count(),
         first_non_finite: bad.collect(),
+        cut_paths: statistics.rays.cut,
+        cut_throughput: statistics.rays.cut_share(statistics.samples),
         configuration: header.configuration.clone(),
         error: None,
         part: None,

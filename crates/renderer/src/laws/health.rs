@@ -61,3 +61,31 @@ fn rays_are_counted_by_purpose_and_none_is_traced_for_nothing() {
     assert_eq!(rays.total(), 64);
     assert_eq!(rendering.image.pixel([2, 2]), Color::white());
 }
+
+/// Inside a sphere of albedo 1/2 without light every path goes on until it is cut.
+#[test]
+fn paths_that_are_cut_are_counted_with_what_they_carry() {
+    let mut sketch = Sketch::default();
+    let grey = sketch.grey(0.5);
+    sketch.shape(sphere(DVec3::ZERO, 1.0), grey);
+    let mut scene = sketch.seen(DVec3::ZERO, DVec3::Y, 60.0, [4, 4]);
+    scene.path.roulette_depth = u32::MAX;
+    for (max_depth, share) in [(1, 1.0), (2, 0.5), (4, 0.125)] {
+        let settings =
+            RenderSettings { samples_per_pixel: 2, ..settings(Some(max_depth), Strategy::Mis) };
+        let settings = RenderSettings { path: scene.path, ..settings };
+        let path =
+            etendue_scene::scene::PathSettings { max_depth: Some(max_depth), ..settings.path };
+        let renderer =
+            Renderer::new(&scene, RenderSettings { path, ..settings }).expect("a thread");
+        for rendering in [
+            renderer.render(&|_| (), &AtomicBool::new(false)),
+            renderer.render_with_reuse(&|_| (), &AtomicBool::new(false)),
+        ] {
+            let statistics = rendering.statistics;
+            assert_eq!(statistics.rays.cut, statistics.samples);
+            // Albedos are rounded, and the sum to 2⁻²⁰.
+            assert!((statistics.rays.cut_share(statistics.samples) / share - 1.0).abs() < 1e-5);
+        }
+    }
+}

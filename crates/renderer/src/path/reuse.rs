@@ -160,6 +160,7 @@ impl<R: Rays> PathTracer<'_, '_, R, Primaries> {
             };
             path.add(walk.throughput * self.emitted(&walk, &point));
             if depth == longest {
+                rays.cut((path.scale() * walk.throughput).max_channel());
                 break;
             }
             let mut varying = Varying::default();
@@ -289,6 +290,14 @@ impl SharedPath {
             None => self.own += radiance,
         }
     }
+    /// What the throughput of its walk is relative to.
+    fn scale(&self) -> Color {
+        match (&self.joint, &self.branch) {
+            (Some(joint), Some(_)) => joint.throughput,
+            _ => Color::white(),
+        }
+    }
+
     /// What its branch would bring to a path that does not share.
     pub(crate) fn alone(&self) -> Color {
         match (&self.joint, &self.branch) {

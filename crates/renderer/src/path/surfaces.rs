@@ -35,6 +35,7 @@ impl Transport for Surfaces {
             };
             radiance += walk.throughput * tracer.emitted(&walk, &point);
             if depth == longest {
+                rays.cut(walk.throughput.max_channel());
                 break;
             }
             let mut varying = Varying::default();

@@ -83,6 +83,8 @@ impl Report<'_> {
                     None => format!("{column},{row},{sample}"),
                 })
                 .collect(),
+            cut_paths: self.drawing.statistics.rays.cut,
+            cut_throughput: self.drawing.statistics.rays.cut_share(self.drawing.statistics.samples),
             configuration: self.drawing.configuration.name().to_owned(),
             error: self.error(),
             part: None,
@@ -129,8 +131,18 @@ impl Report<'_> {
             });
             format!("\netendue: {}{half}", error_in_percent(&error))
         });
+        let rays = statistics.rays;
+        let ended = if rays.cut == 0 {
+            String::new()
+        } else {
+            format!(
+                "; {:.3} % of the paths had the largest number of edges, with {:.3} % of what the camera's rays carry",
+                100.0 * rays.cut as f64 / statistics.samples.max(1) as f64,
+                100.0 * rays.cut_share(statistics.samples),
+            )
+        };
         format!(
-            "{} in {:.2} s ({:.2} s to load and build), configuration {}, {} samples, {} rays, {:.1} Mrays/s{memory}{cut}{error}",
+            "{} in {:.2} s ({:.2} s to load and build), configuration {}, {} samples, {} rays, {:.1} Mrays/s{memory}{ended}{cut}{error}",
             output.path().display(),
             self.render_seconds,
             self.build_seconds,
@@ -162,6 +174,8 @@ impl Report<'_> {
                 "sample": address.sample,
                 "from": source,
             })).collect::<Vec<_>>(),
+            "cut_paths": statistics.rays.cut,
+            "cut_throughput": statistics.rays.cut_share(statistics.samples),
             "complete": self.drawing.whole == Whole::Yes,
             "error": self.error().map(|error| json!({
                 "estimate": error.estimate,

@@ -60,6 +60,7 @@ impl<C: Carried> Transport for Volumes<C> {
         // The address of a vertex, which is `edges` where nothing was passed.
         for depth in 1..=u16::MAX {
             if edges > longest {
+                rays.cut(walk.throughput.max_channel());
                 break;
             }
             let mut beam = None;
@@ -78,6 +79,7 @@ impl<C: Carried> Transport for Volumes<C> {
                 Event::Collision(collision) => {
                     throughput = walk.throughput;
                     if edges == longest {
+                        rays.cut(throughput.max_channel());
                         break;
                     }
                     let shadowed =
@@ -105,9 +107,10 @@ impl<C: Carried> Transport for Volumes<C> {
                         let vertex = tracer.vertex(depth, &point, &walk, exterior, &mut varying);
                         let is_last = edges == longest;
                         // Of the last surface matters only what passes it.
-                        if is_last && !vertex.bsdf.lobes().delta
-                            || tracer.is_inconsistent(&vertex, -direction, vertex.wo)
-                        {
+                        if tracer.is_inconsistent(&vertex, -direction, vertex.wo) {
+                            (None, Fate::Ends)
+                        } else if is_last && !vertex.bsdf.lobes().delta {
+                            rays.cut(throughput.max_channel());
                             (None, Fate::Ends)
                         } else {
                             let shadowed = if is_last {
