@@ -1,8 +1,8 @@
 //! Command lines on given files, with what must come of them.
 
+use core::time::Duration;
 use std::fs;
 use std::path::Path;
-use std::time::Duration;
 
 use super::{Folder, Limits, Outcome, scene};
 

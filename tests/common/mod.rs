@@ -2,12 +2,13 @@
 
 #![allow(dead_code, reason = "each test file is a program of its own and uses a part of this")]
 
+use core::time::Duration;
 use std::fs::{self, File};
 use std::io::{Read as _, Seek as _};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 use std::thread::sleep;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 pub(crate) mod case;
 pub(crate) mod effects;

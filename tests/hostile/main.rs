@@ -1,6 +1,8 @@
 //! Never believe the input: scenes and assets that are malformed, absurd or malicious, and what must come of each within bounded
 //! time and memory. `README.md` beside this file lists them; each is a row of one of the modules below.
 
+#![allow(clippy::too_many_lines, reason = "tables of cases")]
+
 #[path = "../common/mod.rs"]
 mod common;
 

@@ -3,6 +3,12 @@
 use crate::common::case::{Case, LIGHT, ball};
 use crate::common::scene;
 
+/// Files each of which includes the next.
+const NAMES: [&str; 17] = [
+    "0.xml", "1.xml", "2.xml", "3.xml", "4.xml", "5.xml", "6.xml", "7.xml", "8.xml", "9.xml",
+    "10.xml", "11.xml", "12.xml", "13.xml", "14.xml", "15.xml", "16.xml",
+];
+
 pub(super) fn cases() -> Vec<Case> {
     let whole = |what, exit, says, text: &str| Case::new(what, exit, says).file("scene.xml", text);
     let refused = |what, says, body: &str| Case::scene(what, 3, says, body);
@@ -193,10 +199,6 @@ pub(super) fn cases() -> Vec<Case> {
         &["more than 128 plugins"],
         &format!("<bsdf type=\"diffuse\" id=\"b0\"/>\n{chain}"),
     ));
-    const NAMES: [&str; 17] = [
-        "0.xml", "1.xml", "2.xml", "3.xml", "4.xml", "5.xml", "6.xml", "7.xml", "8.xml", "9.xml",
-        "10.xml", "11.xml", "12.xml", "13.xml", "14.xml", "15.xml", "16.xml",
-    ];
     let mut deep = Case::new("includes 17 deep", 3, &["too deeply"])
         .file("scene.xml", scene("<include filename=\"0.xml\"/>"));
     for (i, name) in NAMES.into_iter().enumerate() {
