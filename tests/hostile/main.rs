@@ -2,6 +2,9 @@
 //! time and memory. `README.md` beside this file lists them; each is a row of one of the modules below.
 
 #![allow(clippy::too_many_lines, reason = "tables of cases")]
+#![allow(clippy::format_collect, reason = "long texts of many short lines, made once")]
+
+extern crate alloc;
 
 #[path = "../common/mod.rs"]
 mod common;
@@ -16,7 +19,7 @@ mod values;
 mod volumes;
 mod xml;
 
-use std::collections::BTreeSet;
+use alloc::collections::BTreeSet;
 use std::env;
 use std::fs;
 

@@ -5,19 +5,19 @@ use std::io::Write as _;
 use flate2::write::ZlibEncoder;
 use flate2::{Compression, Crc};
 
-/// A chunk with its length and its checksum.
-pub(super) fn chunk(kind: &[u8; 4], content: &[u8]) -> Vec<u8> {
+/// A chunk of a kind of four letters, with its length and its checksum.
+pub(super) fn chunk(kind: &[u8], content: &[u8]) -> Vec<u8> {
     let mut crc = Crc::new();
     crc.update(kind);
     crc.update(content);
     let length = (content.len() as u32).to_be_bytes();
-    [&length, kind.as_slice(), content, &crc.sum().to_be_bytes()].concat()
+    [&length, kind, content, &crc.sum().to_be_bytes()].concat()
 }
 
 /// A stream of zlib that unfolds to so many zeros.
 pub(super) fn zeros(count: usize) -> Vec<u8> {
     let mut zlib = ZlibEncoder::new(Vec::new(), Compression::best());
-    let block = [0; 1 << 16];
+    let block = vec![0; 1 << 16];
     for start in (0..count).step_by(block.len()) {
         zlib.write_all(&block[..block.len().min(count - start)]).expect("memory");
     }

@@ -25,7 +25,11 @@ use crate::texture::{BitmapImage, Wrap};
 ///
 /// # Sampling
 /// Light that is as bright as the mean of the map, or less, is found well by the directions in which surfaces scatter, and with
-/// multiple importance sampling light samples are best spent on what is brighter ([`weight`]).
+/// multiple importance sampling light samples are best spent on what is brighter: directions are drawn in proportion to
+///
+/// ```text
+/// max(L − mean L, L / 256)
+/// ```
 ///
 /// # Source
 /// Mitsuba 3's `envmap`. Its look-up takes the exact south pole for the north pole; this one does

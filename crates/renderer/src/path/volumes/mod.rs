@@ -105,15 +105,14 @@ impl<C: Carried> Transport for Volumes<C> {
                         let mut varying = Varying::default();
                         let exterior = crossing.as_ref().map(|crossing| crossing.exterior);
                         let vertex = tracer.vertex(depth, &point, &walk, exterior, &mut varying);
-                        let is_last = edges == longest;
                         // Of the last surface matters only what passes it.
                         if tracer.is_inconsistent(&vertex, -direction, vertex.wo) {
                             (None, Fate::Ends)
-                        } else if is_last && !vertex.bsdf.lobes().delta {
+                        } else if edges == longest && !vertex.bsdf.lobes().delta {
                             rays.cut(throughput.max_channel());
                             (None, Fate::Ends)
                         } else {
-                            let shadowed = if is_last {
+                            let shadowed = if edges == longest {
                                 None
                             } else {
                                 tracer.light_at_surface(&vertex, &course, points)
