@@ -25,6 +25,7 @@ fn the_number_of_threads_does_not_change_a_bit() {
                 |threads| render(scene, &["--sampler", sampler, "--threads", threads]).bits();
             let one = with("1");
             assert_eq!(one, with("2"), "{scene}, {sampler}, 2 threads");
+            assert_eq!(one, with("3"), "{scene}, {sampler}, 3 threads");
             assert_eq!(one, with("7"), "{scene}, {sampler}, 7 threads");
         }
     }

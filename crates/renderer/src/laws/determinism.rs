@@ -25,13 +25,13 @@ fn with_threads(threads: usize, sampler: SamplerKind) -> RenderSettings {
 }
 
 #[test]
-fn one_two_and_seven_threads_give_the_same_bits() {
+fn the_number_of_threads_changes_nothing() {
     let mut scene = scene();
     scene.film.filter = ReconstructionFilter::Gaussian { stddev: 0.5 };
     for sampler in [SamplerKind::Independent, SamplerKind::Sobol] {
         let one = render(&scene, with_threads(1, sampler));
         assert!(one.image.mean().g > 0.1);
-        for threads in [2, 7] {
+        for threads in [2, 3, 7] {
             assert_eq!(one, render(&scene, with_threads(threads, sampler)));
         }
     }
@@ -52,6 +52,31 @@ fn the_order_of_tiles_changes_nothing() {
     tiles.sort_by_key(|tile| etendue_math::hash_u32(tile.offset[0] * 1000 + tile.offset[1]));
     assert_ne!(tiles, Tile::cover(&scene.film.crop));
     assert_eq!(in_order, rendered(&tiles));
+}
+
+#[test]
+fn the_size_of_tiles_changes_nothing() {
+    let scene = scene();
+    let crop = scene.film.crop;
+    let renderer = Renderer::new(&scene, with_threads(3, SamplerKind::Sobol)).expect("threads");
+    let rendered = |tiles: &[Tile]| {
+        let rendering = Mutex::new(renderer.nothing_rendered());
+        renderer.render_tiles(tiles, &rendering, &|_| (), &AtomicBool::new(false));
+        rendering.into_inner().expect("no panic")
+    };
+    let usual = rendered(&Tile::cover(&crop));
+    let of_size = |[w, h]: [u32; 2]| -> Vec<Tile> {
+        let [width, height] = crop.size;
+        (0..height.div_ceil(h))
+            .flat_map(|y| (0..width.div_ceil(w)).map(move |x| [x * w, y * h]))
+            .map(|[x, y]| Tile { offset: [x, y], size: [w.min(width - x), h.min(height - y)] })
+            .collect()
+    };
+    for size in [crop.size, [1, 1], [70, 1], [11, 13]] {
+        let other = rendered(&of_size(size));
+        assert_eq!(usual.image, other.image, "{size:?}");
+        assert_eq!(usual.statistics, other.statistics, "{size:?}");
+    }
 }
 
 #[test]
