@@ -7,6 +7,7 @@ use std::sync::{Mutex, PoisonError};
 
 use etendue_math::Spectrum;
 use etendue_sampling::{Decision, Dimension, Sampler};
+use etendue_scene::color::Channels;
 use etendue_scene::geometry::{Ray, Rays, Task};
 use etendue_scene::{Color, Scene};
 
@@ -315,7 +316,11 @@ impl<'a> Renderer<'a> {
     ) -> Color {
         let time = self.time(points);
         let (ray, weight) = self.camera_ray(filter, time, points);
-        T::radiance(&tracer.at(time), ray, points, rays).scale(weight)
+        let radiance = T::radiance(&tracer.at(time), ray, points, rays);
+        if <T::Channels as Channels>::FIXED.is_some() {
+            rays.check(radiance);
+        }
+        radiance.scale(weight)
     }
 
     /// The moment of one sample, in shares of the exposure: one for all rays of its path.

@@ -1,5 +1,7 @@
 //! What a render did: samples, rays, and samples that were not numbers.
 
+use etendue_scene::Color;
+
 use crate::codec::{Reader, StateError, Write as _};
 
 /// Counts of one tile, or of a whole render.
@@ -26,6 +28,9 @@ pub struct RayCounts {
     pub cut: u64,
     /// What these paths still carried, in units of 2⁻²⁰ of what the camera's rays do: the largest channel of the throughput, summed as integers.
     pub cut_throughput: u64,
+    /// Paths in RGB that found less than no light in some channel: a defect of étendue. Colours of wavelengths may lie outside of RGB and do not
+    /// count.
+    pub negative: u64,
 }
 
 impl RayCounts {
@@ -35,6 +40,12 @@ impl RayCounts {
         self.cut += 1;
         // A conversion that limits, and takes NaN for 0: such a sample is counted elsewhere.
         self.cut_throughput = self.cut_throughput.saturating_add((throughput * CUT_UNITS) as u64);
+    }
+
+    /// Counts what a path has found if it is negative.
+    #[inline]
+    pub(crate) fn check(&mut self, radiance: Color) {
+        self.negative += u64::from(radiance.to_array().iter().any(|&channel| channel < 0.0));
     }
 
     /// The share of the camera's throughput that was cut: a bound on the share of the light that is missing, where nothing that was left out
@@ -112,6 +123,7 @@ impl Statistics {
         self.rays.camera += other.rays.camera;
         self.rays.shadow += other.rays.shadow;
         self.rays.indirect += other.rays.indirect;
+        self.rays.negative += other.rays.negative;
         self.rays.cut += other.rays.cut;
         self.rays.cut_throughput =
             self.rays.cut_throughput.saturating_add(other.rays.cut_throughput);
@@ -125,11 +137,12 @@ impl Statistics {
 /// How statistics are stored.
 impl Statistics {
     /// Fewest bytes: without addresses.
-    pub(crate) const LEAST_BYTES: usize = 7 * 8 + 1;
+    pub(crate) const LEAST_BYTES: usize = 8 * 8 + 1;
 
     pub(crate) fn write(&self, bytes: &mut Vec<u8>) {
-        let RayCounts { camera, shadow, indirect, cut, cut_throughput } = self.rays;
-        for count in [self.samples, camera, shadow, indirect, self.non_finite.count, cut] {
+        let RayCounts { camera, shadow, indirect, cut, cut_throughput, negative } = self.rays;
+        let counts = [self.samples, camera, shadow, indirect, self.non_finite.count, cut, negative];
+        for count in counts {
             bytes.u64(count);
         }
         bytes.u64(cut_throughput);
@@ -142,7 +155,7 @@ impl Statistics {
     }
 
     pub(crate) fn read(reader: &mut Reader<'_>) -> Result<Self, StateError> {
-        let mut counts = [0; 6];
+        let mut counts = [0; 7];
         for count in &mut counts {
             *count = reader.u64()?;
             // Counts of many tiles are added.
@@ -150,7 +163,7 @@ impl Statistics {
                 return Err(StateError::new("a count is too large"));
             }
         }
-        let [samples, camera, shadow, indirect, count, cut] = counts;
+        let [samples, camera, shadow, indirect, count, cut, negative] = counts;
         let cut_throughput = reader.u64()?;
         let kept = usize::from(reader.u8()?);
         if kept as u64 != count.min(NonFiniteSamples::KEPT as u64) {
@@ -163,7 +176,7 @@ impl Statistics {
         }
         Ok(Self {
             samples,
-            rays: RayCounts { camera, shadow, indirect, cut, cut_throughput },
+            rays: RayCounts { camera, shadow, indirect, cut, cut_throughput, negative },
             non_finite,
         })
     }
@@ -198,6 +211,16 @@ mod tests {
     }
 
     #[test]
+    fn light_that_is_negative_is_counted() {
+        let mut rays = RayCounts::default();
+        for radiance in [[0.0, 1.0, 2.0], [0.5, -1e-9, 2.0], [-0.0, 0.0, 0.0], [f32::NAN, 0.0, 1.0]]
+        {
+            rays.check(radiance.into());
+        }
+        assert_eq!(rays.negative, 1);
+    }
+
+    #[test]
     fn statistics_come_back_and_a_count_without_its_addresses_is_refused() {
         for rows in [0..0, 0..3, 0..40] {
             let rays = RayCounts {
@@ -206,6 +229,7 @@ mod tests {
                 indirect: 3,
                 cut: 2,
                 cut_throughput: u64::MAX,
+                negative: 4,
             };
             let statistics = Statistics { rays, ..part(rows) };
             let mut bytes = Vec::new();

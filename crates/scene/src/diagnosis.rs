@@ -7,9 +7,9 @@ use core::fmt;
 use etendue_math::Spectrum;
 
 use crate::Scene;
-use crate::error::printable;
 use crate::light::Light;
 use crate::material::{Material, MaterialId};
+use crate::printable::printable;
 use crate::scene::Shows;
 
 /// Something that makes a picture other than its author expects.

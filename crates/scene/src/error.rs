@@ -5,6 +5,8 @@ use alloc::vec::Vec;
 use core::fmt;
 use std::path::{Path, PathBuf};
 
+use crate::printable::printable;
+
 /// A place in a file.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Location {
@@ -142,32 +144,6 @@ fn describe(f: &mut fmt::Formatter<'_>, location: &Location, message: &str) -> f
     }
 }
 
-/// Characters of a message, beyond which it is shown without its middle, and how many of each end are.
-const LONGEST: usize = 1000;
-const ENDS: usize = 450;
-
-/// A message, which quotes what files hold, as text for a terminal: on one line, without codes that would do something there, of
-/// bounded length.
-pub(crate) fn printable(text: String) -> String {
-    // Line breaks, escape codes, and marks that turn the direction of writing.
-    let acts =
-        |c: char| c.is_control() || matches!(c, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
-    if text.len() <= LONGEST && !text.contains(acts) {
-        return text;
-    }
-    let shown = |c: char| if acts(c) { c.escape_unicode().collect() } else { String::from(c) };
-    let count = text.chars().count();
-    if count <= LONGEST {
-        return text.chars().map(shown).collect();
-    }
-    let ends = [
-        text.chars().take(ENDS).map(shown).collect(),
-        text.chars().skip(count - ENDS).map(shown).collect(),
-    ];
-    let [begin, end]: [String; 2] = ends;
-    alloc::format!("{begin} … {end}")
-}
-
 /// Warnings in the order they were found.
 pub(crate) type Warnings = Vec<Warning>;
 
@@ -182,14 +158,5 @@ mod tests {
         assert_eq!(error.to_string(), r"a\u{1b}[2J:3: “x\u{a}y\u{202e}é”; \u{d}");
         let warning = Warning::new(Location::default(), "\u{7}");
         assert_eq!(warning.to_string(), r"\u{7}");
-    }
-
-    #[test]
-    fn a_long_message_is_shown_without_its_middle() {
-        let whole = "é".repeat(LONGEST);
-        assert_eq!(printable(whole.clone()), whole);
-        let shown = printable(alloc::format!("begin {whole} end"));
-        assert!(shown.starts_with("begin é") && shown.ends_with("é end"), "{shown}");
-        assert_eq!(shown.chars().count(), 2 * ENDS + 3);
     }
 }

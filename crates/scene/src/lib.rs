@@ -31,6 +31,7 @@ mod diagnosis;
 #[cfg(feature = "std")]
 mod error;
 mod parallel;
+mod printable;
 
 pub use diagnosis::Diagnosis;
 pub use effect::Effect;

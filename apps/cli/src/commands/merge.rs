@@ -98,6 +98,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Exit, Failure> {
         seconds,
         non_finite: statistics.non_finite.count(),
         first_non_finite: bad.collect(),
+        negative: statistics.rays.negative,
         cut_paths: statistics.rays.cut,
         cut_throughput: statistics.rays.cut_share(statistics.samples),
         configuration: header.configuration.clone(),

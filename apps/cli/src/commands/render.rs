@@ -106,7 +106,7 @@ pub(crate) struct Arguments {
     /// Print one line of statistics as JSON.
     #[arg(long)]
     json: bool,
-    /// Exit with 6 if any sample was NaN or infinite.
+    /// Exit with 6 if any sample was NaN, infinite or negative.
     #[arg(long)]
     strict: bool,
 }
@@ -296,9 +296,7 @@ fn render(arguments: &Arguments, recipe: &Recipe) -> Result<Exit, Failure> {
     }
     Ok(match interrupt.exit() {
         Some(exit) => exit,
-        None if arguments.strict && (report.non_finite() > 0 || report.overflowed() > 0) => {
-            Exit::Unhealthy
-        }
+        None if arguments.strict && report.is_unhealthy() => Exit::Unhealthy,
         None => Exit::Done,
     })
 }

@@ -19,6 +19,8 @@ pub(crate) struct Metadata {
     pub(crate) non_finite: u64,
     /// Column, row and number of the first of them, and where each comes from.
     pub(crate) first_non_finite: Vec<String>,
+    /// Samples that found less than no light.
+    pub(crate) negative: u64,
     /// Paths that were cut for their number of edges, and what they carried of what the camera's rays do.
     pub(crate) cut_paths: u64,
     pub(crate) cut_throughput: f64,
@@ -44,6 +46,7 @@ impl Metadata {
             ("etendue.seed", self.seed.to_string()),
             ("etendue.seconds", format!("{:.3}", self.seconds)),
             ("etendue.non_finite", self.non_finite.to_string()),
+            ("etendue.negative", self.negative.to_string()),
             ("etendue.cut_paths", self.cut_paths.to_string()),
             ("etendue.cut_throughput", self.cut_throughput.to_string()),
             ("etendue.configuration", self.configuration.clone()),

@@ -261,6 +261,7 @@ impl<S: Sampler> Task for ExtendTile<'_, '_, '_, S> {
                 for (i, (member, (path, weight))) in (0..).zip(members.zip(found)) {
                     // Evenly, what does not divide included.
                     member.extension.spend([0, 0, (to_share + i) / paths.len() as u64]);
+                    statistics.rays.check(path.own + path.lent);
                     let [own, lent, alone] =
                         [path.own, path.lent, path.alone()].map(|light| light.scale(weight));
                     let first = path.first.map_or(own, |first| first.radiance.scale(weight));

@@ -171,6 +171,7 @@ impl MeshArrays {
     }
 
     /// Memory of the arrays.
+    #[cfg(feature = "std")]
     pub(crate) fn bytes(&self) -> usize {
         let vertices = size_of_val(&*self.positions) + size_of_val(&*self.normals);
         let attributes = self.attributes.iter().map(|a| size_of_val(&*a.values));

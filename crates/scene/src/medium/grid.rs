@@ -102,6 +102,7 @@ impl VolumeGrid {
     }
 
     /// Memory of the values.
+    #[cfg(feature = "std")]
     pub(crate) fn bytes(&self) -> usize {
         match &self.values {
             Values::Grey(values) => size_of_val(&**values),

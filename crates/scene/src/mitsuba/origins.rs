@@ -7,7 +7,7 @@ use core::fmt;
 
 use crate::Location;
 use crate::effect::Element;
-use crate::error::printable;
+use crate::printable::printable;
 use crate::xml::Node;
 
 /// Where a part of a scene is described.

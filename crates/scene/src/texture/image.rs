@@ -141,6 +141,7 @@ impl BitmapImage {
     }
 
     /// Memory of the texels.
+    #[cfg(feature = "std")]
     pub(crate) fn bytes(&self) -> usize {
         match &self.texels {
             Texels::Grey8 { texels, .. } => size_of_val(&**texels),

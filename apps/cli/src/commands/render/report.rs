@@ -31,6 +31,11 @@ impl Report<'_> {
         pixels.filter(|pixel| !pixel.is_finite()).count()
     }
 
+    /// Whether any sample or pixel is no light.
+    pub(super) fn is_unhealthy(&self) -> bool {
+        self.non_finite() > 0 || self.negative() > 0 || self.overflowed() > 0
+    }
+
     pub(super) fn warn_of_overflow(&self) {
         let count = self.overflowed();
         if count > 0 {
@@ -83,6 +88,7 @@ impl Report<'_> {
                     None => format!("{column},{row},{sample}"),
                 })
                 .collect(),
+            negative: self.negative(),
             cut_paths: self.drawing.statistics.rays.cut,
             cut_throughput: self.drawing.statistics.rays.cut_share(self.drawing.statistics.samples),
             configuration: self.drawing.configuration.name().to_owned(),
@@ -91,7 +97,18 @@ impl Report<'_> {
         }
     }
 
+    /// Samples with less than no light.
+    pub(super) fn negative(&self) -> u64 {
+        self.drawing.statistics.rays.negative
+    }
+
     pub(super) fn warn_of_bad_samples(&self, seed: u64) {
+        if self.negative() > 0 {
+            eprintln!(
+                "etendue: warning: {} samples found less than no light, which is a defect of étendue; please report it with the scene",
+                self.negative()
+            );
+        }
         if self.non_finite() == 0 {
             return;
         }
@@ -174,6 +191,7 @@ impl Report<'_> {
                 "sample": address.sample,
                 "from": source,
             })).collect::<Vec<_>>(),
+            "negative": self.negative(),
             "cut_paths": statistics.rays.cut,
             "cut_throughput": statistics.rays.cut_share(statistics.samples),
             "complete": self.drawing.whole == Whole::Yes,
