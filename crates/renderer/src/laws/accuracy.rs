@@ -190,7 +190,7 @@ fn one_two_and_seven_threads_give_the_same_progressive_bits() {
     let render = |threads, sampler| {
         let settings = RenderSettings { threads, sampler, ..settings(Some(4), Strategy::Mis) };
         let renderer = Renderer::new(&case.scene, settings).expect("threads");
-        let goal = Goal { error: Some(0.05), samples_per_pixel: Some(100), ..Goal::default() };
+        let goal = Goal { error: Some(0.01), samples_per_pixel: Some(100), ..Goal::default() };
         renderer.render_progressively(&goal, &|_| (), &|| Halt::No)
     };
     for sampler in [SamplerKind::Independent, SamplerKind::Sobol] {

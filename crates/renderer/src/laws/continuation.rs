@@ -81,9 +81,9 @@ fn a_smaller_error_later_is_as_good_as_from_the_beginning() {
     let large = advance(&renderer, nothing(&scene, Allocation::Adaptive), &until(0.2), None);
     let again = advance(&renderer, stored(&large), &until(0.2), None);
     assert_eq!(again, large, "a goal that is reached is not exceeded");
-    let small = advance(&renderer, stored(&large), &until(0.05), None);
+    let small = advance(&renderer, stored(&large), &until(0.01), None);
     assert!(small.rendering().rounds.len() > large.rendering().rounds.len());
-    let expected = renderer.render_progressively(&until(0.05), &|_| (), &|| Halt::No);
+    let expected = renderer.render_progressively(&until(0.01), &|_| (), &|| Halt::No);
     assert_eq!(small.rendering(), expected);
 }
 

@@ -4,7 +4,7 @@ use etendue_math::Spectrum;
 use etendue_math::glam::DVec3;
 use etendue_scene::scene::SamplerKind;
 
-use super::scenes::{Sketch, rectangle, settings, sphere};
+use super::scenes::{Sketch, rectangle, settings, sphere, with_skies_that_overflow};
 use crate::{Found, RenderSettings, Renderer, Strategy};
 
 /// A floor, a glass ball and a lamp, without a limit of the depth.
@@ -51,11 +51,10 @@ fn steps_lead_to_the_sample_and_their_rays_to_each_other() {
 fn the_step_that_is_not_finite_is_found() {
     let mut sketch = Sketch::default();
     let white = sketch.grey(1.0);
-    // Each is finite, their sum is not.
-    sketch.sky(3e38);
-    sketch.sky(3e38);
+    sketch.sky(1.0);
+    sketch.sky(1.0);
     sketch.shape(sphere(DVec3::ZERO, 1.0), white);
-    let scene = sketch.seen(DVec3::Y * -4.0, DVec3::ZERO, 60.0, [9, 9]);
+    let scene = with_skies_that_overflow(sketch.seen(DVec3::Y * -4.0, DVec3::ZERO, 60.0, [9, 9]));
     let renderer = Renderer::new(&scene, settings(Some(3), Strategy::Mis)).expect("a thread");
     assert_eq!(renderer.replay([0, 0], 0).first_not_finite(), Some(0), "the sky itself");
     assert_eq!(renderer.replay([4, 4], 0).first_not_finite(), Some(1), "the light on the ball");

@@ -57,8 +57,8 @@ impl<C: Carried> Transport for Volumes<C> {
         let mut bodies = Bodies::none(course.medium);
         let mut edges = 1;
         rays.camera += 1;
-        // The address of a vertex, which is `edges` where nothing was passed.
-        for depth in 1..=u16::MAX {
+        // The address of a vertex, which is `edges` where nothing was passed; none where paths have no edge.
+        for depth in 1..=longest.min(1) * u16::MAX {
             if edges > longest {
                 rays.cut(walk.throughput.max_channel());
                 break;
