@@ -238,7 +238,7 @@ impl Estimate {
 /// A scene whose skies have finite light, the sum of which is not: no scene with such lights is made, so they are put in afterwards.
 pub(super) fn with_skies_that_overflow(mut scene: Scene) -> Scene {
     for light in &mut scene.lights {
-        *light = Light::Constant(ConstantLight::new(Color::splat(3e38)).expect("finite"));
+        *light = Light::Constant(ConstantLight { radiance: Color::splat(3e38) });
     }
     scene
 }
