@@ -8,7 +8,8 @@ pub(crate) struct Random(u64);
 impl Random {
     /// Those of one mutation of a kind of file.
     pub(crate) fn of(kind: &str, index: u64) -> Self {
-        let seed = kind.bytes().fold(index, |seed, byte| 257 * seed + u64::from(byte));
+        let next = |seed: u64, byte| seed.wrapping_mul(257).wrapping_add(u64::from(byte));
+        let seed = kind.bytes().fold(index, next);
         Self(seed)
     }
 
