@@ -19,7 +19,7 @@ SCENES = {
 }
 DIVISIONS = [1, 4, 16, 64]
 LARGE = ["--size", "3840x2160"]
-LARGE_PARTS = 8
+LARGE_PARTS = 2
 
 
 def seconds(command):
