@@ -15,23 +15,6 @@ fn cornell_box() -> String {
     repository("scenes/cornell-box/scene.xml").to_str().expect("UTF-8").to_owned()
 }
 
-fn succeed(folder: &Folder, arguments: &[&str]) -> Outcome {
-    let outcome = folder.run(arguments);
-    assert_eq!(outcome.exit, Some(0), "{arguments:?}: {}", outcome.stderr);
-    outcome
-}
-
-/// What is refused with one error that says all of the given.
-fn refuse(folder: &Folder, arguments: &[&str], exit: i32, says: &[&str]) {
-    let outcome = folder.run(arguments);
-    assert_eq!(outcome.exit, Some(exit), "{arguments:?}: {}", outcome.stderr);
-    let errors = outcome.errors();
-    assert_eq!(errors.len(), 1, "{arguments:?}: {}", outcome.stderr);
-    for fragment in says {
-        assert!(errors[0].contains(fragment), "{fragment:?} is not said: {}", errors[0]);
-    }
-}
-
 #[test]
 fn a_render_with_a_checkpoint_has_the_bits_of_one_without_and_more_samples_those_of_one_with_more()
 {
@@ -40,18 +23,18 @@ fn a_render_with_a_checkpoint_has_the_bits_of_one_without_and_more_samples_those
     for sampler in ["independent", "sobol"] {
         let fixed = [&["render", &scene, "--quiet", "--sampler", sampler], &SIZE[..]].concat();
         let of = |spp, output| [&fixed[..], &["--spp", spp, "-o", output]].concat();
-        succeed(&folder, &of("3", "3.pfm"));
-        succeed(&folder, &of("70", "70.pfm"));
+        folder.succeed(&of("3", "3.pfm"));
+        folder.succeed(&of("70", "70.pfm"));
         for threads in ["1", "2", "3", "7"] {
             let checkpoint = format!("{sampler}{threads}.checkpoint");
             let kept = ["--checkpoint", &checkpoint, "--threads", threads];
-            succeed(&folder, &[&of("3", "a.pfm")[..], &kept].concat());
+            folder.succeed(&[&of("3", "a.pfm")[..], &kept].concat());
             assert_eq!(picture(&folder, "a.pfm"), picture(&folder, "3.pfm"), "{threads} threads");
-            succeed(&folder, &["resume", &checkpoint, "--spp", "70", "-o", "b.pfm", "--quiet"]);
+            folder.succeed(&["resume", &checkpoint, "--spp", "70", "-o", "b.pfm", "--quiet"]);
             assert_eq!(picture(&folder, "b.pfm"), picture(&folder, "70.pfm"), "{threads} threads");
             // A render that is whole is written once more, to where it was last.
             std::fs::remove_file(folder.path("b.pfm")).expect("it was written");
-            succeed(&folder, &["resume", &checkpoint, "--quiet"]);
+            folder.succeed(&["resume", &checkpoint, "--quiet"]);
             assert_eq!(picture(&folder, "b.pfm"), picture(&folder, "70.pfm"));
         }
     }
@@ -63,13 +46,12 @@ fn a_progressive_render_goes_on_to_a_smaller_error_with_the_bits_of_one_that_was
     let scene = cornell_box();
     let fixed = [&["render", &scene, "--quiet"], &SIZE[..]].concat();
     let of = |error, output| [&fixed[..], &["--error", error, "-o", output]].concat();
-    succeed(&folder, &of("10%", "expected.pfm"));
-    succeed(&folder, &[&of("25%", "a.pfm")[..], &["--checkpoint", "a.checkpoint"]].concat());
+    folder.succeed(&of("10%", "expected.pfm"));
+    folder.succeed(&[&of("25%", "a.pfm")[..], &["--checkpoint", "a.checkpoint"]].concat());
     assert_ne!(picture(&folder, "a.pfm"), picture(&folder, "expected.pfm"));
-    succeed(&folder, &["resume", "a.checkpoint", "--error", "10%", "--quiet"]);
+    folder.succeed(&["resume", "a.checkpoint", "--error", "10%", "--quiet"]);
     assert_eq!(picture(&folder, "a.pfm"), picture(&folder, "expected.pfm"));
-    refuse(
-        &folder,
+    folder.refuse(
         &[&fixed[..], &["--spp", "4", "-o", "a.pfm", "--checkpoint", "a.checkpoint"]].concat(),
         2,
         &["it was made with --allocation adaptive, now without"],
@@ -82,9 +64,9 @@ fn samples_that_stand_for_less_of_a_texture_are_another_render() {
     let scene = repository("scenes/effects/texture-filtering.xml");
     let scene = scene.to_str().expect("UTF-8");
     let fixed = ["render", scene, "-o", "a.pfm", "--quiet", "--checkpoint", "a.checkpoint"];
-    succeed(&folder, &[&fixed[..], &SIZE, &["--spp", "2"]].concat());
+    folder.succeed(&[&fixed[..], &SIZE, &["--spp", "2"]].concat());
     let more = ["resume", "a.checkpoint", "--spp", "3"];
-    refuse(&folder, &more, 2, &["it was made with --spp 2, now it is 3"]);
+    folder.refuse(&more, 2, &["it was made with --spp 2, now it is 3"]);
 }
 
 /// A render of the Cornell box of which a checkpoint has been written, of so many samples per pixel.
@@ -92,14 +74,14 @@ fn begun(spp: &str) -> Folder {
     let folder = Folder::new();
     let scene = cornell_box();
     let fixed = ["render", &scene, "-o", "a.pfm", "--quiet", "--checkpoint", "a.checkpoint"];
-    succeed(&folder, &[&fixed[..], &SIZE, &["--spp", spp]].concat());
+    folder.succeed(&[&fixed[..], &SIZE, &["--spp", spp]].concat());
     folder
 }
 
 #[test]
 fn the_newest_complete_checkpoint_is_used_and_a_damaged_one_named() {
     let folder = begun("2");
-    succeed(&folder, &["resume", "a.checkpoint", "--spp", "5", "-o", "expected.pfm", "--quiet"]);
+    folder.succeed(&["resume", "a.checkpoint", "--spp", "5", "-o", "expected.pfm", "--quiet"]);
     assert_eq!(
         folder.names(),
         ["a.checkpoint", "a.checkpoint.previous", "a.pfm", "expected.pfm"],
@@ -110,9 +92,9 @@ fn the_newest_complete_checkpoint_is_used_and_a_damaged_one_named() {
     flipped[bytes.len() / 2] ^= 4;
     for (damage, says) in [(&bytes[..bytes.len() - 1], "cut short"), (&flipped, "damaged")] {
         let folder = begun("2");
-        succeed(&folder, &["resume", "a.checkpoint", "--spp", "3", "--quiet"]);
+        folder.succeed(&["resume", "a.checkpoint", "--spp", "3", "--quiet"]);
         folder.write("a.checkpoint", damage);
-        let outcome = succeed(&folder, &["resume", "a.checkpoint", "--spp", "5", "--quiet"]);
+        let outcome = folder.succeed(&["resume", "a.checkpoint", "--spp", "5", "--quiet"]);
         let warnings = outcome.warnings();
         assert_eq!(warnings.len(), 1, "{warnings:?}");
         assert!(warnings[0].contains(says) && warnings[0].contains("a.checkpoint"), "{warnings:?}");
@@ -121,18 +103,18 @@ fn the_newest_complete_checkpoint_is_used_and_a_damaged_one_named() {
         for name in ["a.checkpoint", "a.checkpoint.previous"] {
             folder.write(name, damage);
         }
-        refuse(&folder, &["resume", "a.checkpoint"], 4, &["a.checkpoint", says]);
+        folder.refuse(&["resume", "a.checkpoint"], 4, &["a.checkpoint", says]);
     }
     folder.write("a.xml", scene(""));
-    refuse(&folder, &["resume", "a.xml"], 4, &["a.xml", "no checkpoint"]);
-    refuse(&folder, &["resume", "missing"], 4, &["missing", "no such checkpoint"]);
+    folder.refuse(&["resume", "a.xml"], 4, &["a.xml", "no checkpoint"]);
+    folder.refuse(&["resume", "missing"], 4, &["missing", "no such checkpoint"]);
 }
 
 #[test]
 fn leftovers_of_a_crash_are_removed() {
     let folder = begun("2");
     folder.write(".a.checkpoint.tmp", "half of a checkpoint");
-    succeed(&folder, &["resume", "a.checkpoint", "--quiet"]);
+    folder.succeed(&["resume", "a.checkpoint", "--quiet"]);
     assert!(!folder.names().contains(&".a.checkpoint.tmp".to_owned()), "{:?}", folder.names());
 }
 
@@ -161,8 +143,8 @@ fn another_render_is_refused_with_what_differs() {
         "a.checkpoint",
     ];
     let with = |more: &[&'static str]| [&fixed[..], more].concat();
-    succeed(&folder, &with(&["--max-depth", "8"]));
-    succeed(&folder, &with(&["--max-depth", "8"]));
+    folder.succeed(&with(&["--max-depth", "8"]));
+    folder.succeed(&with(&["--max-depth", "8"]));
     let cases: [(&[&str], &str); 6] = [
         (&["--max-depth", "4"], "it was made with --max-depth 8, now it is 4"),
         (&["--max-depth", "8", "--seed", "3"], "it was made with --seed 0, now it is 3"),
@@ -172,7 +154,7 @@ fn another_render_is_refused_with_what_differs() {
         (&["--max-depth", "8", "-D", "light=2"], "it was made without -D light, now it is 2"),
     ];
     for (more, says) in cases {
-        refuse(&folder, &with(more), 2, &["a.checkpoint", says]);
+        folder.refuse(&with(more), 2, &["a.checkpoint", says]);
     }
     // Every file counts, whatever reads it, and it is the content that does.
     for name in ["light.pfm", "mesh.obj", "part.xml", "scene.xml"] {
@@ -187,12 +169,12 @@ fn another_render_is_refused_with_what_differs() {
         };
         folder.write(name, changed);
         let says = format!("the file {name} has changed");
-        refuse(&folder, &["resume", "a.checkpoint"], 2, &[&says]);
+        folder.refuse(&["resume", "a.checkpoint"], 2, &[&says]);
         folder.write(name, content);
     }
-    succeed(&folder, &["resume", "a.checkpoint", "--quiet"]);
-    succeed(&folder, &["resume", "a.checkpoint", "--quiet", "--spp", "3"]);
-    refuse(&folder, &with(&["--max-depth", "8"]), 2, &["--spp 3, now it is 2, which is less"]);
+    folder.succeed(&["resume", "a.checkpoint", "--quiet"]);
+    folder.succeed(&["resume", "a.checkpoint", "--quiet", "--spp", "3"]);
+    folder.refuse(&with(&["--max-depth", "8"]), 2, &["--spp 3, now it is 2, which is less"]);
 }
 
 #[test]
@@ -201,9 +183,9 @@ fn what_cannot_be_kept_is_refused_before_rendering() {
     folder.write("scene.xml", scene("<emitter type=\"constant\"/>"));
     let fixed = ["render", "scene.xml", "-o", "a.pfm", "--spp", "2", "--checkpoint"];
     let with = |more: &[&'static str]| [&fixed[..], more].concat();
-    refuse(&folder, &with(&["missing/a.checkpoint"]), 4, &["missing", "is not a folder"]);
-    refuse(&folder, &with(&[".."]), 2, &["expected FILE"]);
-    refuse(&folder, &with(&["a.checkpoint", "--reuse"]), 2, &["--reuse", "--checkpoint"]);
+    folder.refuse(&with(&["missing/a.checkpoint"]), 4, &["missing", "is not a folder"]);
+    folder.refuse(&with(&[".."]), 2, &["expected FILE"]);
+    folder.refuse(&with(&["a.checkpoint", "--reuse"]), 2, &["--reuse", "--checkpoint"]);
     assert_eq!(folder.names(), ["scene.xml"]);
 }
 

@@ -14,25 +14,8 @@ fn render(scene: &str, more: &[&str]) -> Vec<String> {
     fixed.iter().chain(more).map(|argument| (*argument).to_owned()).collect()
 }
 
-fn run(folder: &Folder, arguments: &[String]) -> Outcome {
-    let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
-    folder.run(&arguments)
-}
-
 fn succeed(folder: &Folder, arguments: &[String]) -> Outcome {
-    let outcome = run(folder, arguments);
-    assert_eq!(outcome.exit, Some(0), "{arguments:?}: {}", outcome.stderr);
-    outcome
-}
-
-fn refuse(folder: &Folder, arguments: &[&str], exit: i32, says: &[&str]) {
-    let outcome = folder.run(arguments);
-    assert_eq!(outcome.exit, Some(exit), "{arguments:?}: {}", outcome.stderr);
-    let errors = outcome.errors();
-    assert_eq!(errors.len(), 1, "{arguments:?}: {}", outcome.stderr);
-    for fragment in says {
-        assert!(errors[0].contains(fragment), "{fragment:?} is not said: {}", errors[0]);
-    }
+    folder.succeed(&arguments.iter().map(String::as_str).collect::<Vec<_>>())
 }
 
 /// Draws the parts of a division, each with another number of threads.
@@ -78,32 +61,31 @@ fn parts_that_overlap_are_missing_or_of_other_renders_are_named() {
     draw_parts(&folder, BOX, 3, &[]);
     draw_parts(&folder, BOX, 2, &[]);
     let merge = |parts: &[&'static str]| [&["merge", "-o", "a.pfm"], parts].concat();
-    refuse(&folder, &merge(&["3-3.exr", "1-3.exr"]), 2, &["missing: --shard 2/3"]);
-    refuse(&folder, &merge(&["2-3.exr"]), 2, &["missing: --shard 1/3, --shard 3/3"]);
-    refuse(&folder, &merge(&["1-2.exr", "3-3.exr"]), 2, &["missing: the samples 7 to 8"]);
+    folder.refuse(&merge(&["3-3.exr", "1-3.exr"]), 2, &["missing: --shard 2/3"]);
+    folder.refuse(&merge(&["2-3.exr"]), 2, &["missing: --shard 1/3, --shard 3/3"]);
+    folder.refuse(&merge(&["1-2.exr", "3-3.exr"]), 2, &["missing: the samples 7 to 8"]);
     let all = ["1-3.exr", "2-3.exr", "3-3.exr"];
-    refuse(
-        &folder,
+    folder.refuse(
         &merge(&[&all[..], &["1-2.exr"]].concat()),
         2,
         &["overlaps", "the samples 0 to 3"],
     );
-    refuse(&folder, &merge(&["1-3.exr", "1-3.exr"]), 2, &["overlaps with 1-3.exr"]);
+    folder.refuse(&merge(&["1-3.exr", "1-3.exr"]), 2, &["overlaps with 1-3.exr"]);
     let other = ["--shard", "2/3", "--seed", "5", "-o", "other.exr"];
     succeed(&folder, &render(BOX, &other));
     let says = ["other.exr", "not of the same render as 1-3.exr", "--seed 5, now it is 0"];
-    refuse(&folder, &merge(&["1-3.exr", "other.exr", "3-3.exr"]), 2, &says);
+    folder.refuse(&merge(&["1-3.exr", "other.exr", "3-3.exr"]), 2, &says);
     let longer = ["--shard", "2/3", "--spp", "20", "-o", "longer.exr"];
     let mut arguments = render(BOX, &longer);
     arguments.retain(|argument| argument != SPP);
     let place = arguments.iter().position(|argument| argument == "--spp").expect("the first");
     arguments.remove(place);
     succeed(&folder, &arguments);
-    refuse(&folder, &merge(&["1-3.exr", "longer.exr", "3-3.exr"]), 2, &["--spp 20, now it is 14"]);
+    folder.refuse(&merge(&["1-3.exr", "longer.exr", "3-3.exr"]), 2, &["--spp 20, now it is 14"]);
     let whole = ["-o", "whole.exr"];
     succeed(&folder, &render(BOX, &whole));
-    refuse(&folder, &merge(&["1-3.exr", "whole.exr"]), 4, &["whole.exr", "not a part of a render"]);
-    refuse(&folder, &merge(&["1-3.exr", "missing.exr"]), 4, &["missing.exr"]);
+    folder.refuse(&merge(&["1-3.exr", "whole.exr"]), 4, &["whole.exr", "not a part of a render"]);
+    folder.refuse(&merge(&["1-3.exr", "missing.exr"]), 4, &["missing.exr"]);
 }
 
 #[test]
@@ -116,10 +98,10 @@ fn a_damaged_part_is_found_out() {
         let mut changed = bytes.clone();
         changed[place] ^= 0x10;
         folder.write("changed.exr", changed);
-        refuse(&folder, &["merge", "-o", "a.pfm", "changed.exr"], 4, &["changed.exr", "damaged"]);
+        folder.refuse(&["merge", "-o", "a.pfm", "changed.exr"], 4, &["changed.exr", "damaged"]);
     }
     folder.write("cut.exr", &bytes[..bytes.len() / 2]);
-    refuse(&folder, &["merge", "-o", "a.pfm", "cut.exr"], 4, &["cut.exr"]);
+    folder.refuse(&["merge", "-o", "a.pfm", "cut.exr"], 4, &["cut.exr"]);
 }
 
 #[test]
@@ -136,7 +118,7 @@ fn a_part_that_is_there_is_not_drawn_again_and_another_one_is_not_replaced() {
     let refused = |more: &[&str], says: &str| {
         let arguments = render(BOX, more);
         let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
-        refuse(&folder, &arguments, 2, &["a.exr", says]);
+        folder.refuse(&arguments, 2, &["a.exr", says]);
     };
     refused(
         &["--shard", "2/2", "-o", "a.exr"],
@@ -146,10 +128,11 @@ fn a_part_that_is_there_is_not_drawn_again_and_another_one_is_not_replaced() {
     assert_eq!(content(), first);
     let arguments = render(BOX, &["--shard", "1/2", "-o", "a.pfm"]);
     let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
-    refuse(&folder, &arguments, 2, &["a.pfm", "parts of renders are EXR pictures"]);
+    folder.refuse(&arguments, 2, &["a.pfm", "parts of renders are EXR pictures"]);
     let arguments = render(BOX, &["--shard", "2/15", "-o", "b.exr"]);
-    assert_eq!(run(&folder, &arguments).exit, Some(0), "a part of one sample");
+    // A part of one sample.
+    succeed(&folder, &arguments);
     let arguments = render(BOX, &["--shard", "1/15", "-o", "c.exr"]);
     let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
-    refuse(&folder, &arguments, 2, &["--shard 1/15 has none of the 14 samples"]);
+    folder.refuse(&arguments, 2, &["--shard 1/15 has none of the 14 samples"]);
 }

@@ -132,6 +132,24 @@ impl Folder {
         self.command(arguments).output().expect("the command starts").into()
     }
 
+    /// Runs the command in the folder; it must succeed.
+    pub(crate) fn succeed(&self, arguments: &[&str]) -> Outcome {
+        let outcome = self.run(arguments);
+        assert_eq!(outcome.exit, Some(0), "{arguments:?}: {}", outcome.stderr);
+        outcome
+    }
+
+    /// Runs the command in the folder; it must be refused with one error that says all of the given.
+    pub(crate) fn refuse(&self, arguments: &[&str], exit: i32, says: &[&str]) {
+        let outcome = self.run(arguments);
+        assert_eq!(outcome.exit, Some(exit), "{arguments:?}: {}", outcome.stderr);
+        let errors = outcome.errors();
+        assert_eq!(errors.len(), 1, "{arguments:?}: {}", outcome.stderr);
+        for fragment in says {
+            assert!(errors[0].contains(fragment), "{fragment:?} is not said: {}", errors[0]);
+        }
+    }
+
     /// Runs the command in the folder; beyond the limits it is killed. Standard input stays open and silent, so that who reads it
     /// waits.
     pub(crate) fn run_within(&self, limits: Limits, arguments: &[&str]) -> Outcome {

@@ -30,6 +30,16 @@ pub(super) fn cases() -> Vec<Case> {
     };
     let with = |value: f32| [[0.5; 7].as_slice(), &[value]].concat();
     let cube = |size: i32, channels: i32, value: f32| volume([size; 3], channels, &with(value));
+    let by_its_box = cloud.replace(
+        "value=\"a.vol\"/>",
+        "value=\"a.vol\"/><boolean name=\"use_grid_bbox\" value=\"true\"/>",
+    );
+    // A box whose six numbers are made of one byte.
+    let boxed = |what, byte: u8| {
+        let mut bytes = cube(2, 1, 0.5);
+        bytes[24..48].fill(byte);
+        Case::scene(what, 3, &["the box of a.vol"], &by_its_box).file("a.vol", bytes)
+    };
     let mut coded = cube(2, 1, 0.5);
     coded[4] = 2;
     vec![
@@ -57,34 +67,8 @@ pub(super) fn cases() -> Vec<Case> {
         density("thicker than can be sampled", 3, &["sigma_t", "thick"], cube(2, 1, 1e30)),
         density("all zero", 0, &[], volume([2; 3], 1, &[0.0; 8])),
         density("a good one", 0, &[], cube(2, 1, 0.5)),
-        Case::scene(
-            "box without size",
-            3,
-            &["the box of a.vol"],
-            &cloud.replace(
-                "value=\"a.vol\"/>",
-                "value=\"a.vol\"/><boolean name=\"use_grid_bbox\" value=\"true\"/>",
-            ),
-        )
-        .file("a.vol", {
-            let mut bytes = cube(2, 1, 0.5);
-            bytes[24..48].fill(0);
-            bytes
-        }),
-        Case::scene(
-            "box of NaN",
-            3,
-            &["the box of a.vol"],
-            &cloud.replace(
-                "value=\"a.vol\"/>",
-                "value=\"a.vol\"/><boolean name=\"use_grid_bbox\" value=\"true\"/>",
-            ),
-        )
-        .file("a.vol", {
-            let mut bytes = cube(2, 1, 0.5);
-            bytes[24..48].fill(0xff);
-            bytes
-        }),
+        boxed("box without size", 0),
+        boxed("box of NaN", 0xff),
         distances(
             "distances of three channels",
             3,

@@ -205,7 +205,7 @@ impl<'a> Renderer<'a> {
         before: &PackedTile,
         cancel: &AtomicBool,
     ) -> Option<PackedTile> {
-        let pixels = tile.pixels().zip(before.unpack()).map(|(_, pixel)| pixel).collect();
+        let pixels = before.unpack(tile).collect();
         let drawn = before.drawn() + (samples.end - samples.start);
         let after = self.render_tile::<S, T>(tile, samples, Keep::Moments(pixels), cancel);
         let Keep::Moments(pixels) = after.kept else { return None };

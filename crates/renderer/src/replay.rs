@@ -2,6 +2,7 @@
 
 use core::cell::RefCell;
 
+use etendue_math::Spectrum;
 use etendue_sampling::Sampler;
 use etendue_scene::Color;
 use etendue_scene::geometry::{Hit, Moment, Ray, Rays, SurfacePoint};
@@ -68,7 +69,6 @@ impl Replay {
 
     /// The first step with which the sample is no longer finite.
     pub fn first_not_finite(&self) -> Option<usize> {
-        use etendue_math::Spectrum;
         self.steps.iter().position(|step| !step.radiance.is_finite())
     }
 }

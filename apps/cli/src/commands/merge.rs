@@ -5,11 +5,11 @@ use std::path::{Path, PathBuf};
 
 use etendue_renderer::Accumulation;
 
+use super::encoding_arguments::EncodingArguments;
 use super::render::part;
-use super::values::exposure;
 use crate::checkpoint::{Header, Shard, State, Stored};
 use crate::failure::{Exit, Failure};
-use crate::output::{Encoding, Metadata, Output, Precision};
+use crate::output::{Metadata, Output};
 use crate::progress::Quiet;
 
 /// Joins the parts that `etendue render --shard` drew, in any order, to the picture of a render in one go, bit by bit.
@@ -21,12 +21,8 @@ pub(crate) struct Arguments {
     /// The picture to write; its extension chooses the format: exr, hdr, pfm (linear), png (sRGB).
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
-    /// Brighten 8-bit pictures by this many stops.
-    #[arg(long, value_name = "STOPS", default_value_t = 0.0, value_parser = exposure, allow_hyphen_values = true)]
-    exposure: f32,
-    /// Sample type of EXR pictures.
-    #[arg(long, value_name = "TYPE", default_value = "float")]
-    precision: Precision,
+    #[command(flatten)]
+    encoding: EncodingArguments,
     #[command(flatten)]
     quiet: Quiet,
 }
@@ -87,33 +83,26 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Exit, Failure> {
         all.joined(&sums).unwrap_or(all)
     });
     let Some(sums) = sums else { return Err(Failure::usage("there are no parts")) };
-    let statistics = sums.statistics();
-    let first = statistics.non_finite.first().iter();
-    let bad = first.map(|at| format!("{},{},{}", at.column, at.row, at.sample));
     let metadata = Metadata {
         scene: header.scene.clone(),
         samples_per_pixel: f64::from(header.samples_per_pixel),
-        samples: statistics.samples,
         seed: header.identity.setting("--seed").and_then(|seed| seed.parse().ok()).unwrap_or(0),
         seconds,
-        non_finite: statistics.non_finite.count(),
-        first_non_finite: bad.collect(),
-        negative: statistics.rays.negative,
-        cut_paths: statistics.rays.cut,
-        cut_throughput: statistics.rays.cut_share(statistics.samples),
+        statistics: sums.statistics(),
+        sources: Vec::new(),
         configuration: header.configuration.clone(),
         error: None,
         part: None,
     };
-    let encoding = Encoding { precision: arguments.precision, exposure: arguments.exposure };
+    let encoding = arguments.encoding.encoding();
     output.write_or_rescue(&sums.image(), &[], encoding, &metadata, None)?;
     if !arguments.quiet.quiet {
         eprintln!(
             "etendue: {} of {} parts, {} samples, {} rays",
             output.path().display(),
             arguments.parts.len(),
-            statistics.samples,
-            statistics.rays.total()
+            metadata.statistics.samples,
+            metadata.statistics.rays.total()
         );
     }
     Ok(Exit::Done)

@@ -5,6 +5,7 @@ pub(crate) mod brdf;
 pub(crate) mod compare;
 pub(crate) mod convert;
 pub(crate) mod effects;
+mod encoding_arguments;
 pub(crate) mod info;
 pub(crate) mod merge;
 pub(crate) mod render;

@@ -14,15 +14,16 @@ use std::time::{Duration, Instant};
 use clap::Parser;
 use etendue_renderer::{SampleAddress, progressive};
 use etendue_scene::film::Crop;
-use etendue_scene::{LoadOptions, SamplerKind};
+use etendue_scene::{LoadOptions, LoadedScene, SamplerKind};
 
+use super::encoding_arguments::EncodingArguments;
 use super::scene_arguments::{SceneArguments, load};
 use super::selection::SelectionArguments;
-use super::values::{crop, duration, exposure, max_depth, relative_error, size};
+use super::values::{crop, duration, max_depth, relative_error, size};
 use crate::checkpoint::{Header, Recipe, Shard, State, Stored, Target, folder};
 use crate::failure::{Exit, Failure};
 use crate::interrupt::Interrupt;
-use crate::output::{Aov, Encoding, Output, Precision, of_part};
+use crate::output::{Aov, Output, of_part};
 use crate::progress::Quiet;
 use draw::draw;
 use report::Report;
@@ -95,12 +96,8 @@ pub(crate) struct Arguments {
     /// Sample points.
     #[arg(long, value_name = "NAME")]
     sampler: Option<Sampler>,
-    /// Brighten 8-bit pictures by this many stops.
-    #[arg(long, value_name = "STOPS", default_value_t = 0.0, value_parser = exposure, allow_hyphen_values = true)]
-    exposure: f32,
-    /// Sample type of EXR pictures.
-    #[arg(long, value_name = "TYPE", default_value = "float")]
-    precision: Precision,
+    #[command(flatten)]
+    encoding: EncodingArguments,
     #[command(flatten)]
     quiet: Quiet,
     /// Print one line of statistics as JSON.
@@ -139,6 +136,13 @@ impl From<Allocation> for progressive::Allocation {
 }
 
 impl Arguments {
+    /// The scene, with what the command line asks of all of it.
+    fn load(&self) -> Result<LoadedScene, Failure> {
+        let mut loaded = load(&self.scene.scene, &self.load_options())?;
+        loaded.scene.path.spectral |= self.spectral;
+        Ok(loaded)
+    }
+
     fn load_options(&self) -> LoadOptions {
         LoadOptions {
             film_size: self.size,
@@ -167,8 +171,7 @@ struct StoredCommand {
 
 pub(crate) fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     if let Some(address) = arguments.replay {
-        let mut loaded = load(&arguments.scene.scene, &arguments.load_options())?;
-        loaded.scene.path.spectral |= arguments.spectral;
+        let loaded = arguments.load()?;
         let scene = arguments.selection.select(loaded.scene);
         return replay::run(arguments, address, &scene, &loaded.origins);
     }
@@ -219,8 +222,7 @@ fn render(arguments: &Arguments, recipe: &Recipe) -> Result<Exit, Failure> {
     }
     let interrupt = Interrupt::install()?;
     let start = Instant::now();
-    let mut loaded = load(&arguments.scene.scene, &arguments.load_options())?;
-    loaded.scene.path.spectral |= arguments.spectral;
+    let loaded = arguments.load()?;
     let mut layers = arguments.aov.clone();
     if arguments.shard.is_some() {
         // Those of a part would be those of the whole picture, which only a whole render has.
@@ -272,7 +274,7 @@ fn render(arguments: &Arguments, recipe: &Recipe) -> Result<Exit, Failure> {
     report.warn_of_bad_samples(scene.sampling.seed);
     report.warn_of_overflow();
 
-    let encoding = Encoding { precision: arguments.precision, exposure: arguments.exposure };
+    let encoding = arguments.encoding.encoding();
     let mut metadata = report.metadata(arguments, &scene);
     if let Some((header, sums)) = header.zip(part) {
         let configuration = metadata.configuration.clone();

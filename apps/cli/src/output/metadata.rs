@@ -1,6 +1,9 @@
 //! What a picture says about its own making.
 
+use core::iter::repeat;
+
 use etendue_renderer::progressive::ImageError;
+use etendue_renderer::{SampleAddress, Statistics};
 
 /// Facts stored in the picture's header where the format has room for them.
 #[derive(Clone, Debug, Default)]
@@ -9,21 +12,14 @@ pub(crate) struct Metadata {
     pub(crate) scene: String,
     /// Samples per pixel, in the mean over the picture.
     pub(crate) samples_per_pixel: f64,
-    /// Samples in all.
-    pub(crate) samples: u64,
+    /// What was done.
+    pub(crate) statistics: Statistics,
     /// Seed.
     pub(crate) seed: u64,
     /// Seconds of rendering.
     pub(crate) seconds: f64,
-    /// Samples left out because they were NaN or infinite.
-    pub(crate) non_finite: u64,
-    /// Column, row and number of the first of them, and where each comes from.
-    pub(crate) first_non_finite: Vec<String>,
-    /// Samples that found less than no light.
-    pub(crate) negative: u64,
-    /// Paths that were cut for their number of edges, and what they carried of what the camera's rays do.
-    pub(crate) cut_paths: u64,
-    pub(crate) cut_throughput: f64,
+    /// Where each of the first samples that are not finite comes from, if that is known.
+    pub(crate) sources: Vec<Option<String>>,
     /// What was compiled in.
     pub(crate) configuration: String,
     /// The relative error of the picture, where it is known.
@@ -38,21 +34,29 @@ pub(super) const PART: &str = "etendue.part";
 impl Metadata {
     /// Name and value of every entry.
     pub(crate) fn entries(&self) -> Vec<(&'static str, String)> {
+        let Statistics { samples, rays, non_finite } = &self.statistics;
         let mut entries = vec![
             ("etendue.version", env!("CARGO_PKG_VERSION").to_owned()),
             ("etendue.scene", self.scene.clone()),
             ("etendue.spp", self.samples_per_pixel.to_string()),
-            ("etendue.samples", self.samples.to_string()),
+            ("etendue.samples", samples.to_string()),
             ("etendue.seed", self.seed.to_string()),
             ("etendue.seconds", format!("{:.3}", self.seconds)),
-            ("etendue.non_finite", self.non_finite.to_string()),
-            ("etendue.negative", self.negative.to_string()),
-            ("etendue.cut_paths", self.cut_paths.to_string()),
-            ("etendue.cut_throughput", self.cut_throughput.to_string()),
+            ("etendue.non_finite", non_finite.count().to_string()),
+            ("etendue.negative", rays.negative.to_string()),
+            ("etendue.cut_paths", rays.cut.to_string()),
+            ("etendue.cut_throughput", rays.cut_share(*samples).to_string()),
             ("etendue.configuration", self.configuration.clone()),
         ];
-        if !self.first_non_finite.is_empty() {
-            entries.push(("etendue.first_non_finite", self.first_non_finite.join("; ")));
+        let sources = self.sources.iter().map(Option::as_ref).chain(repeat(None));
+        let first = non_finite.first().iter().zip(sources).map(|(address, source)| {
+            let SampleAddress { column, row, sample } = address;
+            let from = source.map_or(String::new(), |source| format!(" from {source}"));
+            format!("{column},{row},{sample}{from}")
+        });
+        let first: Vec<String> = first.collect();
+        if !first.is_empty() {
+            entries.push(("etendue.first_non_finite", first.join("; ")));
         }
         if let Some(error) = self.error {
             entries.extend([

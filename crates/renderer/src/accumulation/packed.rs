@@ -47,11 +47,11 @@ impl PackedTile {
         &self.statistics
     }
 
-    /// The pixels, empty ones where nothing has been drawn.
-    pub(crate) fn unpack(&self) -> impl Iterator<Item = PixelMoments> + '_ {
+    /// The pixels of the tile that is packed here, in the order of [`Tile::pixels`]; empty ones where nothing has been drawn.
+    pub(crate) fn unpack(&self, tile: Tile) -> impl Iterator<Item = PixelMoments> + '_ {
         let mut reader = Reader::new(&self.pixels);
         // What is packed here or was checked when it was read has all its pixels.
-        core::iter::repeat_with(move || read_pixel(&mut reader).unwrap_or_default())
+        tile.pixels().map(move |_| read_pixel(&mut reader).unwrap_or_default())
     }
 
     pub(super) fn write(&self, bytes: &mut Vec<u8>) {
@@ -150,7 +150,8 @@ mod tests {
             pixel([f32::from_bits(1), -f32::from_bits(1), -1.0], 1),
         ];
         let tile = PackedTile::new(100, &pixels, Statistics::default());
-        let unpacked: Vec<PixelMoments> = tile.unpack().take(pixels.len()).collect();
+        let row = Tile { offset: [3, 5], size: [4, 1] };
+        let unpacked: Vec<PixelMoments> = tile.unpack(row).collect();
         assert_eq!(unpacked, pixels);
         let usual = PackedTile::new(100, &pixels[1..2], Statistics::default()).pixels.len();
         assert!(usual < 64, "{usual}");

@@ -131,7 +131,7 @@ impl Accumulation {
     /// Calls a function with every pixel and its place in the crop.
     fn visit(&self, mut f: impl FnMut([u32; 2], &PixelMoments)) {
         for (tile, packed) in Tile::cover(&self.crop).into_iter().zip(&self.tiles) {
-            for (pixel, moments) in tile.pixels().zip(packed.unpack()) {
+            for (pixel, moments) in tile.pixels().zip(packed.unpack(tile)) {
                 f([0, 1].map(|axis| pixel[axis] - self.crop.offset[axis]), &moments);
             }
         }
@@ -151,9 +151,8 @@ impl Accumulation {
             let tiles =
                 Tile::cover(&first.crop).into_iter().zip(first.tiles.iter().zip(&last.tiles));
             let tiles = tiles.map(|(tile, (a, b))| {
-                let mut pixels: Vec<PixelMoments> =
-                    tile.pixels().zip(a.unpack()).map(|(_, pixel)| pixel).collect();
-                for (pixel, more) in pixels.iter_mut().zip(b.unpack()) {
+                let mut pixels: Vec<PixelMoments> = a.unpack(tile).collect();
+                for (pixel, more) in pixels.iter_mut().zip(b.unpack(tile)) {
                     pixel.merge(&more);
                 }
                 let mut statistics = a.statistics().clone();

@@ -290,6 +290,7 @@ impl SharedPath {
             None => self.own += radiance,
         }
     }
+
     /// What the throughput of its walk is relative to.
     fn scale(&self) -> Color {
         match (&self.joint, &self.branch) {

@@ -1,8 +1,9 @@
 //! How many samples the pixels are worth.
 
 use etendue_math::Real;
+use etendue_scene::Color;
 
-use super::pixel::{DARK, Pilot};
+use super::pixel::{Pilot, relative};
 
 /// No pixel gets more than this many times the mean, or than this number.
 const MOST: f64 = 16.0;
@@ -68,11 +69,9 @@ impl Guide {
                     *sum += weight * c;
                 }
             }
-            let relative = |(variance, mean): (f32, f32)| {
-                let (variance, mean) = (variance / weights, mean / weights);
-                variance / (mean * mean + DARK)
-            };
-            let sum: f32 = variance.into_iter().zip(mean).map(relative).sum();
+            let [variance, mean] =
+                [variance, mean].map(|sums| Color::from(sums.map(|sum: f32| sum / weights)));
+            let sum = relative(variance, mean);
             // A film of one pixel has no neighbours, and infinite ones say nothing.
             let (error, rays) = (sum / 3.0, (rays / weights).max(1.0));
             if (error * rays).is_finite() { Worth { error, rays } } else { Worth::default() }
@@ -161,7 +160,6 @@ fn gain(worth: &[Worth], counts: &[u32]) -> f32 {
 #[cfg(test)]
 mod tests {
     use etendue_math::Spectrum;
-    use etendue_scene::Color;
 
     use super::*;
 

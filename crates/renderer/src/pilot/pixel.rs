@@ -9,7 +9,17 @@ use crate::film::PixelSum;
 const RUNS: u32 = 4;
 
 /// Square of a tenth of white: what is darker counts as if it were not.
-pub(super) const DARK: f32 = 0.01;
+const DARK: f32 = 0.01;
+
+/// A variance relative to its mean, summed over the channels:
+///
+/// ```text
+/// variance / (mean² + 0.01)
+/// ```
+pub(super) fn relative(variance: Color, mean: Color) -> f32 {
+    let channels = variance.to_array().into_iter().zip(mean.to_array());
+    channels.map(|(v, m)| v / (m * m + DARK)).sum()
+}
 
 /// What the first samples of a pixel say.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -29,11 +39,7 @@ pub(super) struct Pilot {
     pub(super) rays: [f32; 3],
 }
 
-/// How much a part of a pixel varies, relative to the whole: of variances the sum over channels of
-///
-/// ```text
-/// variance / (mean² + 0.01)
-/// ```
+/// How much a part of a pixel varies, [relative](relative) to the whole.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Spread {
     /// Of the mean of all samples, from four runs of them.
@@ -150,14 +156,10 @@ impl Moments {
 
     /// How much it varies in a pixel whose mean is `pixel`.
     fn spread(&self, runs: f32, pixel: Color) -> Spread {
-        let relative = |variance: Color| {
-            let channels = variance.to_array().into_iter().zip(pixel.to_array());
-            channels.map(|(v, m)| v / (m * m + DARK)).sum::<f32>()
-        };
         // The halves have the means h and 2 m − h, and differ by 2 (h − m).
         let difference = self.half.scale(2.0 / runs.max(1.0)) + self.mean(runs).scale(-1.0);
         let of_half = (difference * difference).scale(if runs < 2.0 { 0.0 } else { 2.0 });
-        Spread { of_all: relative(self.variance(runs)), of_half: relative(of_half) }
+        Spread { of_all: relative(self.variance(runs), pixel), of_half: relative(of_half, pixel) }
     }
 }
 

@@ -77,20 +77,10 @@ impl Report<'_> {
             } else {
                 f64::from(sampling.samples_per_pixel)
             },
-            samples: self.drawing.statistics.samples,
+            statistics: self.drawing.statistics.clone(),
             seed: sampling.seed,
             seconds: self.render_seconds,
-            non_finite: self.non_finite(),
-            first_non_finite: self
-                .bad_samples()
-                .map(|(SampleAddress { column, row, sample }, source)| match source {
-                    Some(source) => format!("{column},{row},{sample} from {source}"),
-                    None => format!("{column},{row},{sample}"),
-                })
-                .collect(),
-            negative: self.negative(),
-            cut_paths: self.drawing.statistics.rays.cut,
-            cut_throughput: self.drawing.statistics.rays.cut_share(self.drawing.statistics.samples),
+            sources: self.sources.to_vec(),
             configuration: self.drawing.configuration.name().to_owned(),
             error: self.error(),
             part: None,
