@@ -55,7 +55,6 @@ impl AxisRange {
                 if high == 0.0 {
                     return Self { scale, ends: [0.1, 10.0], step: 1.0 };
                 }
-                let decade = |x: f64| x.log10();
                 // A little room, so that no point lies on the frame.
                 let first = (decade(low) - 0.05).floor();
                 let last = (decade(high) + 0.05).ceil().max(first + 1.0);
@@ -73,7 +72,7 @@ impl AxisRange {
         }
         // A hair of room, so that an albedo of 1 + 1e-9 does not need another step.
         let peak = peak * (1.0 - 1e-6);
-        let power = power_of_ten((peak / 5.0).log10().floor());
+        let power = power_of_ten(decade(peak / 5.0).floor());
         let step = [1.0, 2.0, 2.5, 5.0, 10.0]
             .map(|factor| factor * power)
             .into_iter()
@@ -97,7 +96,7 @@ impl AxisRange {
         let [low, high] = self.ends;
         let place = match self.scale {
             Scale::Linear => (value - low) / (high - low),
-            Scale::Log => (value.max(low) / low).log10() / (high / low).log10(),
+            Scale::Log => decade(value.max(low) / low) / decade(high / low),
         };
         if place > 0.0 { place.min(1.0) } else { 0.0 }
     }
@@ -111,7 +110,7 @@ impl AxisRange {
                 (0..=count).map(|i| f64::from(i) * self.step).collect()
             }
             Scale::Log => {
-                let [first, last] = [low, high].map(|x| x.log10().round());
+                let [first, last] = [low, high].map(|x| decade(x).round());
                 let count = ((last - first) / self.step).floor() as u32;
                 (0..=count).map(|i| power_of_ten(first + f64::from(i) * self.step)).collect()
             }
@@ -131,7 +130,7 @@ impl AxisRange {
                     None => format!("{tick:.1e}"),
                 }
             }
-            Scale::Log => match tick.log10().round() as i32 {
+            Scale::Log => match decade(tick).round() as i32 {
                 -2 => "0.01".to_owned(),
                 -1 => "0.1".to_owned(),
                 exponent @ 0..=3 => format!("{:.0}", power_of_ten(exponent.into())),
@@ -139,6 +138,11 @@ impl AxisRange {
             },
         }
     }
+}
+
+/// The decimal logarithm; of a power of ten its exponent but for a rounding, which no use of it tells from the exponent.
+fn decade(x: f64) -> f64 {
+    Real::ln(x) / core::f64::consts::LN_10
 }
 
 fn power_of_ten(exponent: f64) -> f64 {

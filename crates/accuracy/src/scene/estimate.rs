@@ -1,5 +1,7 @@
 //! What all pictures of a variant say together.
 
+use etendue_math::Real;
+
 use super::errors::GROUPS;
 use super::job::Record;
 
@@ -70,8 +72,8 @@ impl Estimate {
         }
         if let Some(pair) = errors.windows(2).find(|pair| pair[1][1] <= error) {
             let [[t0, e0], [t1, e1]] = [pair[0], pair[1]];
-            let share = (e0 / error).log10() / (e0 / e1).log10();
-            return Reach::Interpolated(t0 * etendue_math::Real::powf(t1 / t0, share));
+            let share = Real::ln(e0 / error) / Real::ln(e0 / e1);
+            return Reach::Interpolated(t0 * Real::powf(t1 / t0, share));
         }
         let (noise, left) = (last_error - self.floor(), error - self.floor());
         if left > 0.0 { Reach::Extrapolated(last * noise / left) } else { Reach::Never }

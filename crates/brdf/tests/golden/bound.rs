@@ -10,6 +10,10 @@ pub(crate) const LEAST: f64 = f32::from_bits(1) as f64;
 
 /// Spacing of `f32` at `x`, 2²³ of them to the power of two below.
 pub(crate) fn ulp32(x: f64) -> f64 {
-    let exponent = x.abs().log2().floor();
-    if exponent < -126.0 { LEAST } else { exponent.exp2() / 8_388_608.0 }
+    if x.abs() < f64::from(f32::MIN_POSITIVE) {
+        return LEAST;
+    }
+    // Sign and significand cleared.
+    let power_below = f64::from_bits(x.to_bits() & f64::INFINITY.to_bits());
+    power_below / 8_388_608.0
 }

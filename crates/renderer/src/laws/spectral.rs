@@ -20,7 +20,7 @@ fn by_wavelength(max_depth: Option<u32>, strategy: Strategy) -> RenderSettings {
 
 fn assert_equal(a: Estimate, b: Estimate) {
     // Each test is a single draw: 4 standard errors of the difference.
-    let allowed = 4.0 * a.error.hypot(b.error);
+    let allowed = 4.0 * (a.error.sqr() + b.error.sqr()).sqrt();
     assert!((a.mean - b.mean).abs() <= allowed, "{a:?} {b:?}");
     assert!(allowed <= 0.1 * a.mean, "too noisy to tell: {a:?} {b:?}");
 }

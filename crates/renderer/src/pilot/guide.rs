@@ -6,8 +6,8 @@ use etendue_scene::Color;
 use super::pixel::{Pilot, relative};
 
 /// No pixel gets more than this many times the mean, or than this number.
-const MOST: f64 = 16.0;
-const MOST_OF_ALL: f64 = 2_147_483_648.0;
+const MOST: u32 = 16;
+const MOST_OF_ALL: u32 = 1 << 31;
 
 /// Samples go in proportion to this power of the relative variance per ray. The best one for a known variance would be ½ (Neyman); that
 /// of a pilot is a guess with a spread of its own.
@@ -126,7 +126,7 @@ fn counts(worth: &[Worth], least: u32, mean: u32) -> Vec<u32> {
     let level = |w: &Worth| POWER * Real::ln(per_ray(w) / average + 1e-3) / core::f32::consts::LN_2;
     let levels: Vec<f32> = worth.iter().map(level).collect();
     let (lowest, highest) =
-        (least.ilog2() as i32, (f64::from(mean) * MOST).min(MOST_OF_ALL).log2() as i32);
+        (least.ilog2() as i32, mean.saturating_mul(MOST).min(MOST_OF_ALL).ilog2() as i32);
     let count =
         |level: f32, k: f32| 1_u32 << ((level + k + 0.5).floor() as i32).clamp(lowest, highest);
     let budget = u64::from(mean) * worth.len() as u64;

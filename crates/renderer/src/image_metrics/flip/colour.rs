@@ -60,7 +60,8 @@ pub(super) fn hunt_lab(rgb: [f64; 3]) -> [f64; 3] {
 
 /// City block distance of lightness from the Euclidean one of chroma: for large differences.
 pub(super) fn hyab([l1, a1, b1]: [f64; 3], [l2, a2, b2]: [f64; 3]) -> f64 {
-    (l1 - l2).abs() + f64::hypot(a1 - a2, b1 - b2)
+    // What a screen shows differs by hundreds in each: far from where squares overflow.
+    (l1 - l2).abs() + ((a1 - a2).sqr() + (b1 - b2).sqr()).sqrt()
 }
 
 fn to_xyz() -> DMat3 {

@@ -32,9 +32,10 @@ pub(super) fn exposures(reference: &Image) -> Vec<f64> {
     luminances.sort_by(f64::total_cmp);
     let (Some(&brightest), count) = (luminances.last(), luminances.len()) else { return vec![1.0] };
     let median = f64::midpoint(luminances[(count - 1) / 2], luminances[count / 2]);
+    let stops = |factor: f64| Real::ln(factor) / core::f64::consts::LN_2;
     // A black picture is looked at as it is.
     let [start, stop] =
-        [brightest, median].map(|y| if y > 0.0 { (bright() / y).log2() } else { 0.0 });
+        [brightest, median].map(|y| if y > 0.0 { stops(bright() / y) } else { 0.0 });
     let stop = stop.max(start);
     let count = ((stop - start).ceil() as u32).max(2);
     let step = (stop - start) / f64::from(count - 1);
