@@ -10,7 +10,7 @@ use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::time::{Instant, SystemTime};
 
-use common::{ETENDUE, Folder, Outcome, Picture, repository};
+use common::{ETENDUE, Folder, Outcome, Picture, repository, wait_until_rendering};
 
 /// A scene without a texture, in which nothing depends on the number of samples.
 fn cornell_box() -> String {
@@ -175,6 +175,35 @@ fn a_progressive_render_that_is_interrupted_goes_on_to_the_same_bits() {
         Picture::read_pfm(&folder.path("a.pfm")).bits() != expected,
         "it was interrupted too late"
     );
+}
+
+#[test]
+fn a_part_that_is_interrupted_is_not_joined_but_finished_by_the_same_command() {
+    let folder = Folder::new();
+    let scene = cornell_box();
+    // A second or more of one thread, so that the signal does not come too late.
+    let fixed = ["render", &scene, "--quiet", "--size", "96x80", "--spp", "300"];
+    let of = |more: &[&'static str]| [&fixed[..], more].concat();
+    let first = of(&["--shard", "1/2", "-o", "1.exr"]);
+    let mut child = folder
+        .command(&[&first[..], &["--threads", "1"]].concat())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("the command starts");
+    wait_until_rendering(&mut child);
+    signal(&child, "-INT");
+    let outcome = Outcome::from(child.wait_with_output().expect("a child"));
+    assert_eq!(outcome.exit, Some(130), "{}", outcome.stderr);
+    folder.succeed(&of(&["--shard", "2/2", "-o", "2.exr"]));
+    let merge = ["merge", "1.exr", "2.exr", "-o", "joined.pfm", "--quiet"];
+    folder.refuse(&merge, 2, &["1.exr", "not whole"]);
+    assert_eq!(folder.names(), ["1.exr", "2.exr"]);
+    folder.succeed(&first);
+    folder.succeed(&merge);
+    folder.succeed(&of(&["-o", "whole.pfm"]));
+    let [joined, whole] =
+        ["joined.pfm", "whole.pfm"].map(|name| Picture::read_pfm(&folder.path(name)).bits());
+    assert!(joined == whole, "other bits");
 }
 
 #[test]

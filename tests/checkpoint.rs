@@ -2,7 +2,9 @@
 
 mod common;
 
-use common::{Folder, Outcome, Picture, repository, scene};
+use core::time::Duration;
+
+use common::{Folder, Limits, Outcome, Picture, case, repository, scene};
 
 const SIZE: [&str; 2] = ["--size", "45x37"];
 
@@ -108,6 +110,70 @@ fn the_newest_complete_checkpoint_is_used_and_a_damaged_one_named() {
     folder.write("a.xml", scene(""));
     folder.refuse(&["resume", "a.xml"], 4, &["a.xml", "no checkpoint"]);
     folder.refuse(&["resume", "missing"], 4, &["missing", "no such checkpoint"]);
+}
+
+#[test]
+fn the_checkpoint_before_is_enough() {
+    let folder = begun("2");
+    folder.succeed(&["resume", "a.checkpoint", "--spp", "3", "--quiet"]);
+    std::fs::remove_file(folder.path("a.checkpoint")).expect("it was written");
+    let outcome = folder.succeed(&["resume", "a.checkpoint", "--spp", "5", "--quiet"]);
+    assert_eq!(outcome.stderr, "", "a name that is not there is not damaged");
+    assert_eq!(picture(&folder, "a.pfm"), picture(&begun("5"), "a.pfm"));
+    assert_eq!(folder.names(), ["a.checkpoint", "a.checkpoint.previous", "a.pfm"]);
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_checkpoint_beyond_the_memory_is_an_error() {
+    let folder = Folder::new();
+    // A hole: it takes no room on the disk.
+    let file = std::fs::File::create(folder.path("a.checkpoint")).expect("a file");
+    file.set_len(1 << 40).expect("a file of a tebibyte");
+    let limits = Limits { time: Duration::from_secs(30), memory: 1 << 30 };
+    let outcome = folder.run_within(limits, &["resume", "a.checkpoint", "--quiet"]);
+    assert_eq!(case::messages(&outcome, 4, &["a.checkpoint", "cannot read"]), None);
+    assert_eq!(outcome.exit, Some(4), "{}", outcome.stderr);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_render_in_a_sandbox_stays_there_when_it_goes_on() {
+    const MESH: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    let of = |mesh: &str| {
+        scene(&format!(
+            "<emitter type=\"constant\"/><shape type=\"obj\"><string name=\"filename\" value=\"{mesh}\"/></shape>"
+        ))
+    };
+    let begun = || {
+        let folder = Folder::new();
+        std::fs::create_dir(folder.path("inside")).expect("a folder");
+        folder.write("outside.obj", MESH);
+        folder.write("inside/mesh.obj", MESH);
+        folder.write("inside/scene.xml", of("mesh.obj"));
+        let command = ["render", "inside/scene.xml", "-o", "a.pfm", "--quiet", "--spp", "2"];
+        let kept = ["--checkpoint", "a.checkpoint", "--sandbox"];
+        folder.succeed(&[&command[..], &kept].concat());
+        folder
+    };
+    let more = ["resume", "a.checkpoint", "--quiet", "--spp", "3"];
+    begun().succeed(&more);
+    let outside = "outside of the sandbox";
+    // The scene now names what lies outside, whether there is such a file or not.
+    for name in ["../outside.obj", "../none.obj", "/none/at/all.obj"] {
+        let folder = begun();
+        folder.write("inside/scene.xml", of(name));
+        folder.refuse(&more, 4, &[name, outside, "scene.xml:3:"]);
+    }
+    // What it named leads there now; that the content is the same does not matter.
+    let folder = begun();
+    std::fs::remove_file(folder.path("inside/mesh.obj")).expect("the mesh");
+    let link = std::os::unix::fs::symlink("../outside.obj", folder.path("inside/mesh.obj"));
+    link.expect("a writable folder");
+    folder.refuse(&more, 4, &["mesh.obj", outside]);
+    // A command that does not ask for a sandbox reads it.
+    let command = ["render", "inside/scene.xml", "-o", "b.pfm", "--quiet", "--spp", "3"];
+    folder.succeed(&[&command[..], &["--checkpoint", "a.checkpoint"]].concat());
 }
 
 #[test]

@@ -2,10 +2,11 @@
 
 mod common;
 
-use core::time::Duration;
 use std::path::Path;
-use std::process::{Child, Command, Stdio};
+use std::process::{Command, Stdio};
 
+#[cfg(unix)]
+use common::wait_until_rendering;
 use common::{Folder, Outcome, Picture, scene};
 use exr::meta::MetaData;
 use exr::meta::attribute::AttributeValue;
@@ -218,27 +219,6 @@ fn interrupted(signal: &str, length: [&str; 2]) -> (Folder, Outcome) {
     assert!(sent.expect("kill starts").success());
     let outcome = child.wait_with_output().expect("the command ends").into();
     (folder, outcome)
-}
-
-/// Waits until the threads of the render are there; their names begin with `render`.
-#[cfg(target_os = "linux")]
-fn wait_until_rendering(child: &mut Child) {
-    let tasks = format!("/proc/{}/task", child.id());
-    let is_render = |task: std::io::Result<std::fs::DirEntry>| {
-        let name = task.and_then(|task| std::fs::read_to_string(task.path().join("comm")));
-        name.is_ok_and(|name| name.starts_with("render"))
-    };
-    while !std::fs::read_dir(&tasks).is_ok_and(|mut tasks| tasks.any(is_render)) {
-        let ended = child.try_wait().expect("a child of this process");
-        assert_eq!(ended, None, "it ends by itself");
-        std::thread::sleep(Duration::from_millis(10));
-    }
-}
-
-/// Loading takes milliseconds.
-#[cfg(all(unix, not(target_os = "linux")))]
-fn wait_until_rendering(_: &mut Child) {
-    std::thread::sleep(Duration::from_secs(1));
 }
 
 #[cfg(unix)]

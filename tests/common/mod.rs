@@ -6,7 +6,7 @@ use core::time::Duration;
 use std::fs::{self, File};
 use std::io::{Read as _, Seek as _};
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output, Stdio};
+use std::process::{Child, Command, Output, Stdio};
 use std::thread::sleep;
 use std::time::Instant;
 
@@ -199,6 +199,27 @@ impl Folder {
         assert_eq!(outcome.exit, Some(0), "{scene} {arguments:?}: {}", outcome.stderr);
         Picture::read_pfm(&self.path("out.pfm"))
     }
+}
+
+/// Waits until the threads of the render are there; their names begin with `render`.
+#[cfg(target_os = "linux")]
+pub(crate) fn wait_until_rendering(child: &mut Child) {
+    let tasks = format!("/proc/{}/task", child.id());
+    let is_render = |task: std::io::Result<fs::DirEntry>| {
+        let name = task.and_then(|task| fs::read_to_string(task.path().join("comm")));
+        name.is_ok_and(|name| name.starts_with("render"))
+    };
+    while !fs::read_dir(&tasks).is_ok_and(|mut tasks| tasks.any(is_render)) {
+        let ended = child.try_wait().expect("a child of this process");
+        assert_eq!(ended, None, "it ends by itself");
+        sleep(Duration::from_millis(10));
+    }
+}
+
+/// Loading takes milliseconds.
+#[cfg(all(unix, not(target_os = "linux")))]
+pub(crate) fn wait_until_rendering(_: &mut Child) {
+    sleep(Duration::from_secs(1));
 }
 
 /// A file of the repository.

@@ -9,6 +9,7 @@ extern crate alloc;
 #[path = "../common/mod.rs"]
 mod common;
 
+mod checkpoints;
 mod files;
 mod gltf;
 mod growth;
@@ -37,6 +38,7 @@ fn corpus() -> Vec<(&'static str, Vec<Case>)> {
         ("Images", images::cases()),
         ("Volumes and distance fields", volumes::cases()),
         ("glTF", gltf::cases()),
+        ("Checkpoints", checkpoints::cases()),
     ]
 }
 
@@ -85,6 +87,12 @@ fn volumes_and_distance_fields() {
 #[test]
 fn gltf() {
     check(of("glTF"));
+}
+
+#[cfg(unix)]
+#[test]
+fn checkpoints() {
+    check(of("Checkpoints"));
 }
 
 /// Where the list in `README.md` begins.

@@ -5,7 +5,7 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use etendue_renderer::RendererError;
-use etendue_scene::{ErrorKind, SceneError};
+use etendue_scene::{ErrorKind, SceneError, printable};
 
 use crate::excerpt::Excerpt;
 
@@ -67,9 +67,19 @@ impl Failure {
     }
 }
 
+/// Lines that a message has at most.
+const MOST_LINES: usize = 40;
+
 impl fmt::Display for Failure {
+    /// As text for a terminal. Lines after the first are indented: what a file says cannot pass for another message.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.message)
+        for (number, line) in self.message.lines().take(MOST_LINES).enumerate() {
+            let is_indented = number == 0 || line.is_empty() || line.starts_with(' ');
+            let margin = if is_indented { "" } else { "  " };
+            let end_before = if number == 0 { "" } else { "\n" };
+            write!(f, "{end_before}{margin}{}", printable(line.to_owned()))?;
+        }
+        Ok(())
     }
 }
 
@@ -97,5 +107,18 @@ impl From<SceneError> for Failure {
             message += &format!("\n  help: {help}");
         }
         Self::new(exit, message)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_a_file_says_is_text_of_the_message_and_no_other() {
+        let failure = Failure::usage("a\u{1b}[2J\netendue: error: b\n  help: c");
+        assert_eq!(failure.to_string(), "a\\u{1b}[2J\n  etendue: error: b\n  help: c");
+        let flood = Failure::usage("x\n".repeat(100_000)).to_string();
+        assert_eq!(flood.lines().count(), MOST_LINES);
     }
 }

@@ -40,6 +40,7 @@ pub use error::{ErrorKind, Location, SceneError, Warning};
 pub use light::{EmissionSides, Light, LightBounds, LightId, LightSample};
 #[cfg(feature = "std")]
 pub use mitsuba::{LoadOptions, LoadedScene, Origin, Origins, load_scene};
+pub use printable::printable;
 pub use scene::{PathSettings, SamplerKind, SamplingSettings, Scene, SceneParts, SurfaceInfo};
 
 /// Linear RGB in the renderer's precision.

@@ -7,8 +7,16 @@ const LONGEST: usize = 1000;
 const ENDS: usize = 450;
 
 /// A message, which quotes what files hold, as text for a terminal: on one line, without codes that would do something there, of
-/// bounded length.
-pub(crate) fn printable(text: String) -> String {
+/// bounded length (of more than 1000 characters the first and the last 450).
+///
+/// Codes are control characters and the marks that turn the direction of writing; they are shown by their numbers.
+///
+/// # Examples
+/// ```
+/// use etendue_scene::printable;
+/// assert_eq!(printable("“\u{1b}[2J”\n".to_owned()), r"“\u{1b}[2J”\u{a}");
+/// ```
+pub fn printable(text: String) -> String {
     // Line breaks, escape codes, and marks that turn the direction of writing.
     let acts =
         |c: char| c.is_control() || matches!(c, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');

@@ -1,5 +1,6 @@
 //! What a stored render is a render of.
 
+use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 use etendue_scene::load::read_asset;
@@ -83,11 +84,16 @@ fn changes<'p>(
     then: &'p [(String, String)],
     now: &'p [(String, String)],
 ) -> impl Iterator<Item = (&'p str, [Option<&'p str>; 2])> {
-    let gone_or_here = then.iter().map(|(name, _)| name.as_str());
-    let new = now.iter().map(|(name, _)| name.as_str()).filter(|name| value(then, name).is_none());
-    gone_or_here
-        .chain(new)
-        .map(|name| (name, [value(then, name), value(now, name)]))
+    // Whoever makes a checkpoint may put any number of them there. Of equal names the first counts.
+    let values = |pairs: &'p [(String, String)]| -> HashMap<&'p str, &'p str> {
+        pairs.iter().rev().map(|(name, value)| (name.as_str(), value.as_str())).collect()
+    };
+    let [before, after] = [then, now].map(values);
+    let new = now.iter().filter(|(name, _)| !before.contains_key(name.as_str()));
+    let names: Vec<&str> = then.iter().chain(new).map(|(name, _)| name.as_str()).collect();
+    names
+        .into_iter()
+        .map(move |name| (name, [&before, &after].map(|values| values.get(name).copied())))
         .filter(|(_, [then, now])| then != now)
 }
 
