@@ -275,6 +275,20 @@ pub(super) fn cases() -> Vec<Case> {
             &["not a regular file"],
             Content::Link("/dev/zero"),
         ),
+        resumed(
+            "lock that is a pipe",
+            4,
+            &[".a.checkpoint.lock", "not a regular file"],
+            genuine.clone(),
+        )
+        .with_content(".a.checkpoint.lock", Content::Pipe),
+        resumed(
+            "lock that is a link",
+            4,
+            &[".a.checkpoint.lock", "not a regular file"],
+            genuine.clone(),
+        )
+        .with_content(".a.checkpoint.lock", Content::Link("scene.xml")),
         rendered(
             "render: another scene",
             2,

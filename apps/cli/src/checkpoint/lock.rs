@@ -1,6 +1,6 @@
 //! One render per checkpoint.
 
-use std::fs::{self, File, TryLockError};
+use std::fs::{self, File, OpenOptions, TryLockError};
 use std::path::{Path, PathBuf};
 
 use crate::failure::{Exit, Failure};
@@ -19,7 +19,12 @@ impl Lock {
         name.push(checkpoint.file_name().unwrap_or_default());
         name.push(".lock");
         let path = checkpoint.with_file_name(name);
-        let file = File::create(&path).map_err(|error| Failure::write(&path, error))?;
+        // A pipe would wait for somebody to read it, and what a link leads to is not ours.
+        if fs::symlink_metadata(&path).is_ok_and(|there| !there.is_file()) {
+            return Err(Failure::write(&path, "not a regular file"));
+        }
+        let file = OpenOptions::new().write(true).create(true).truncate(false).open(&path);
+        let file = file.map_err(|error| Failure::write(&path, error))?;
         match file.try_lock() {
             Err(TryLockError::WouldBlock) => Err(Failure::new(
                 Exit::InputOutput,
