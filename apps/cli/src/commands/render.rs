@@ -30,8 +30,6 @@ use report::Report;
 use storage::Storage;
 use task::Task;
 
-pub(crate) use storage::part;
-
 /// Renders a scene to a picture.
 #[derive(Debug, clap::Args)]
 #[allow(clippy::struct_excessive_bools, reason = "flags of a command line")]
@@ -278,8 +276,10 @@ fn render(arguments: &Arguments, recipe: &Recipe) -> Result<Exit, Failure> {
     let mut metadata = report.metadata(arguments, &scene);
     if let Some((header, sums)) = header.zip(part) {
         let configuration = metadata.configuration.clone();
-        let header = Header { seconds: metadata.seconds, configuration, ..header };
-        metadata.part = Some(Stored { header, state: State::Plain(sums) }.to_part()?);
+        let header = Header { configuration, ..header };
+        let stored = Stored::new(&header, metadata.seconds, State::Plain(sums));
+        let bytes = stored.to_bytes().map_err(|error| Failure::new(Exit::Internal, error))?;
+        metadata.part = Some(bytes);
     }
     let elsewhere = arguments.checkpoint.as_ref().map(|target| folder(&target.path));
     output.write_or_rescue(&drawing.image, &drawing.layers, encoding, &metadata, elsewhere)?;

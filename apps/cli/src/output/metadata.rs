@@ -24,11 +24,11 @@ pub(crate) struct Metadata {
     pub(crate) configuration: String,
     /// The relative error of the picture, where it is known.
     pub(crate) error: Option<ImageError>,
-    /// The stored render of which this is a part, as [`Stored`](crate::checkpoint::Stored) has it.
+    /// The stored render of which this is a part, as [`Stored`](crate::checkpoint::Stored) has it: it follows the picture.
     pub(crate) part: Option<Vec<u8>>,
 }
 
-/// The attribute of an EXR picture that holds a part of a render.
+/// Name of the number of bytes of a part of a render.
 pub(super) const PART: &str = "etendue.part";
 
 impl Metadata {
@@ -48,6 +48,9 @@ impl Metadata {
             ("etendue.cut_throughput", rays.cut_share(*samples).to_string()),
             ("etendue.configuration", self.configuration.clone()),
         ];
+        if let Some(part) = &self.part {
+            entries.push((PART, part.len().to_string()));
+        }
         let sources = self.sources.iter().map(Option::as_ref).chain(repeat(None));
         let first = non_finite.first().iter().zip(sources).map(|(address, source)| {
             let SampleAddress { column, row, sample } = address;

@@ -31,7 +31,7 @@ impl Canvas {
     /// Pixels without samples.
     pub(super) fn new(crop: Crop) -> Self {
         let tile = |tile: Tile| {
-            let pixels = vec![[Half::default(); 2]; tile.pixels().count()];
+            let pixels = vec![[Half::default(); 2]; tile.area()];
             Arc::new(CanvasTile { pixels, statistics: Statistics::default() })
         };
         Self { crop, tiles: Tile::cover(&crop).into_iter().map(tile).collect() }
