@@ -8,7 +8,7 @@ use etendue_renderer::Accumulation;
 use super::encoding_arguments::EncodingArguments;
 use crate::checkpoint::{Header, Part, Shard, State};
 use crate::failure::{Exit, Failure};
-use crate::output::{Metadata, Output};
+use crate::output::{Metadata, Output, of_bad_samples};
 use crate::progress::{ProgressDisplay, Quiet, Standing};
 
 /// Joins the parts that `etendue render --shard` drew, in any order, to the picture of a render in one go, bit by bit.
@@ -101,7 +101,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Exit, Failure> {
         part: None,
     };
     let encoding = arguments.encoding.encoding();
-    output.write_or_rescue(&sums.image(), &[], encoding, &metadata, None)?;
+    let layers = of_bad_samples(&metadata.statistics, &sums.crop());
+    output.write_or_rescue(&sums.image(), &layers, encoding, &metadata, None)?;
     if !arguments.quiet.quiet {
         eprintln!(
             "etendue: {} of {} parts, {} samples, {} rays",

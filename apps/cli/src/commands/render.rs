@@ -1,5 +1,6 @@
 //! `etendue render`: from a scene to a picture.
 
+mod defects;
 mod draw;
 mod replay;
 mod report;
@@ -23,8 +24,9 @@ use super::values::{crop, duration, max_depth, relative_error, size};
 use crate::checkpoint::{Header, Recipe, Shard, State, Stored, Target, folder};
 use crate::failure::{Exit, Failure};
 use crate::interrupt::Interrupt;
-use crate::output::{Aov, Output, of_part};
+use crate::output::{Aov, Output, of_bad_samples, of_part};
 use crate::progress::Quiet;
+use defects::Defects;
 use draw::draw;
 use report::Report;
 use storage::Storage;
@@ -261,14 +263,9 @@ fn render(arguments: &Arguments, recipe: &Recipe) -> Result<Exit, Failure> {
     if let Some(sums) = &part {
         drawing.layers = of_part(sums);
     }
-    let bad = drawing.statistics.non_finite.first();
-    // Paths that share are not those of a sample by itself.
-    let sources = if arguments.reuse || bad.is_empty() {
-        vec![None; bad.len()]
-    } else {
-        replay::sources(&scene, &loaded.origins, bad)
-    };
-    let report = Report { render_seconds, build_seconds, drawing: &drawing, sources: &sources };
+    drawing.layers.extend(of_bad_samples(&drawing.statistics, &scene.film.crop));
+    let defects = Defects::of(&drawing.statistics, &scene, &loaded.origins, arguments.reuse);
+    let report = Report { render_seconds, build_seconds, drawing: &drawing, defects: &defects };
     report.warn_of_bad_samples(scene.sampling.seed);
     report.warn_of_overflow();
 

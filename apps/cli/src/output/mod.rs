@@ -15,7 +15,7 @@ mod pfm;
 mod png;
 
 pub(crate) use self::exr::{Precision, part_length};
-pub(crate) use aov::{Aov, Channel, Sources, of_part};
+pub(crate) use aov::{Aov, Channel, Sources, of_bad_samples, of_part};
 pub(crate) use destination::Destination;
 pub(crate) use metadata::Metadata;
 

@@ -96,7 +96,8 @@ impl Canvas {
     pub(super) fn read(crop: Crop, reader: &mut Reader<'_>) -> Result<Self, StateError> {
         let mut tiles = Vec::new();
         for tile in Tile::cover(&crop) {
-            let statistics = Statistics::read(reader)?;
+            let part = Crop { offset: tile.offset, size: tile.size };
+            let statistics = Statistics::read(reader, &part)?;
             let mut pixels = Vec::new();
             for _ in tile.pixels() {
                 pixels.push([Half::read(reader)?, Half::read(reader)?]);
