@@ -67,3 +67,25 @@ fn a_sample_outside_the_film_and_one_with_a_picture_are_refused() {
         assert!(outcome.stderr.contains(says), "{}", outcome.stderr);
     }
 }
+
+#[test]
+fn where_paths_are_cut_is_said_by_what_they_carry() {
+    let folder = Folder::new();
+    let scene = repository("scenes/cornell-box/scene.xml");
+    let scene = scene.to_str().expect("UTF-8");
+    let fixed = ["render", scene, "--size", SIZE, "--spp", "4", "-o", "a.exr", "--json"];
+    let cut = folder.succeed(&[&fixed[..], &["--max-depth", "2"]].concat());
+    let json = cut.json();
+    assert!(json["cut_throughput"].as_f64() > Some(0.1), "{json}");
+    let from = json["cut_from"].as_array().expect("a list");
+    let share = |entry: &serde_json::Value| entry["share"].as_f64().expect("a number");
+    let all: f64 = from.iter().map(share).sum();
+    assert!(from.len() > 1 && (all - 1.0).abs() < 1e-9, "{json}");
+    assert!(from.is_sorted_by(|a, b| share(a) >= share(b)), "{json}");
+    let first = from[0]["from"].as_str().expect("text");
+    assert!(first.starts_with("bsdf “") && first.contains("scene.xml:"), "{first}");
+    let said = format!("({:.0} % from {first}", 100.0 * share(&from[0]));
+    assert!(cut.stderr.contains(&said), "{said}: {}", cut.stderr);
+    let long = folder.succeed(&[&fixed[..], &["--max-depth", "-1"]].concat()).json();
+    assert_eq!(long["cut_from"].as_array().map(Vec::len), Some(0), "nothing is cut: {long}");
+}

@@ -79,13 +79,14 @@ impl ExactSum {
 
     /// Adds all terms of another sum.
     pub fn merge(&mut self, other: &Self) {
-        let mut other = *other;
-        other.carry();
-        self.carry();
         for (limb, more) in self.limbs.iter_mut().zip(other.limbs) {
             *limb = limb.wrapping_add(more);
         }
-        self.carry();
+        // Limbs from which carries have been passed on hold as much as one term more.
+        self.pending += other.pending + 1;
+        if self.pending >= CARRY_AFTER {
+            self.carry();
+        }
     }
 
     /// Passes on carries: every limb but the last is then from 0 to 2³² − 1.
@@ -132,20 +133,20 @@ impl ExactSum {
         let mut sum = *self;
         sum.carry();
         let mut bytes = [0; BYTES];
-        for (four, digit) in bytes.chunks_exact_mut(4).zip(sum.digits()) {
-            four.copy_from_slice(&digit.to_le_bytes());
+        for (four, digit) in bytes.as_chunks_mut().0.iter_mut().zip(sum.digits()) {
+            *four = digit.to_le_bytes();
         }
         bytes
     }
 
     /// The sum of [`to_bytes`](Self::to_bytes). Any bytes are a sum.
     pub fn from_bytes(bytes: &[u8; BYTES]) -> Self {
-        let digit = |i: usize| {
-            let four = [0, 1, 2, 3].map(|byte| bytes[4 * i + byte]);
-            i64::from(u32::from_le_bytes(four))
-        };
-        let mut limbs: [i64; LIMBS] = core::array::from_fn(digit);
-        limbs[LIMBS - 1] |= digit(LIMBS) << RADIX;
+        let (digits, _) = bytes.as_chunks();
+        let mut limbs = [0; LIMBS];
+        for (limb, &digit) in limbs.iter_mut().zip(digits) {
+            *limb = i64::from(u32::from_le_bytes(digit));
+        }
+        limbs[LIMBS - 1] |= i64::from(i32::from_le_bytes(digits[LIMBS])) << RADIX;
         Self { limbs, pending: 0 }
     }
 }

@@ -64,6 +64,7 @@
 extern crate alloc;
 
 mod accumulation;
+mod bad_samples;
 mod codec;
 mod configuration;
 mod features;
@@ -83,6 +84,7 @@ mod statistics;
 mod tile;
 
 pub use accumulation::Accumulation;
+pub use bad_samples::{BadSamples, SampleAddress};
 pub use codec::StateError;
 pub use configuration::Configuration;
 pub use features::Features;
@@ -90,9 +92,9 @@ pub use film::{FilmSample, FilterSampler, Image, PixelFilter, PixelSum};
 pub use light_sampler::{LightChoice, LightSampler, Receiver, Sides};
 pub use render::{Progress, Renderer, Rendering};
 pub use renderer_error::RendererError;
-pub use replay::{Found, Replay, Step, TracedRay};
+pub use replay::{Cut, Found, Replay, Step, TracedRay};
 pub use settings::{Airlight, RenderSettings, Strategy};
-pub use statistics::{NonFiniteSamples, RayCounts, SampleAddress, Statistics};
+pub use statistics::{RayCounts, Statistics};
 
 /// The examples of the project's README, compiled and run.
 #[cfg(doctest)]

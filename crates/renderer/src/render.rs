@@ -12,6 +12,7 @@ use etendue_scene::geometry::{Ray, Rays, Task};
 use etendue_scene::{Color, Scene};
 
 use crate::accumulation::{PackedTile, PixelMoments};
+use crate::bad_samples::is_negative;
 use crate::configuration::{Configuration, Configured};
 use crate::film::{FilterSampler, Image, PixelFilter};
 use crate::light_sampler::{LightSampler, PointLights};
@@ -19,7 +20,7 @@ use crate::path::{Carried, PathTracer, Prepared, Transport};
 use crate::renderer_error::RendererError;
 use crate::replay::OneSample;
 use crate::settings::{Airlight, RenderSettings};
-use crate::statistics::{RayCounts, SampleAddress, Statistics};
+use crate::statistics::{RayCounts, Statistics};
 use crate::tile::Tile;
 
 /// Renders one scene with one set of settings.
@@ -150,10 +151,11 @@ impl<'a> Renderer<'a> {
     }
 
     /// The radiance of one sample, weighted by the filter: what the picture's pixel is the mean of.
-    /// `pixel` is a column and a row of the full film, `index` that of a [`SampleAddress`].
+    /// `pixel` is a column and a row of the full film, `index` that of a [`SampleAddress`](crate::SampleAddress).
     pub fn sample(&self, pixel: [u32; 2], index: u64) -> Color {
         let settings = &self.settings;
-        self.configured(OneSample { renderer: self, settings, pixel, index, recorded: None })
+        let sample = OneSample { renderer: self, settings, pixel, index, recorded: None };
+        self.configured(sample).0.radiance
     }
 
     /// Renders the given tiles, in this order.
@@ -289,19 +291,14 @@ impl<'a> Renderer<'a> {
         statistics.samples += u64::from(samples.end - samples.start);
         for sample in samples {
             let points = S::at(self.settings.seed, pixel, u64::from(sample));
-            let radiance =
+            let PathSample { radiance, negative } =
                 self.path_sample::<S, T, R>(tracer, &filter, &points, &mut statistics.rays);
-            if moments.add(radiance) {
-                if squares {
-                    moments.add_squares(radiance);
-                }
-            } else {
-                let [column, row] = pixel;
-                statistics.non_finite.record(SampleAddress {
-                    row,
-                    column,
-                    sample: u64::from(sample),
-                });
+            let counts = moments.add(radiance);
+            if counts && squares {
+                moments.add_squares(radiance);
+            }
+            if !counts || negative {
+                statistics.record(pixel, u64::from(sample), !counts, negative);
             }
         }
     }
@@ -313,14 +310,12 @@ impl<'a> Renderer<'a> {
         filter: &PixelFilter<'_>,
         points: &S,
         rays: &mut RayCounts,
-    ) -> Color {
+    ) -> PathSample {
         let time = self.time(points);
         let (ray, weight) = self.camera_ray(filter, time, points);
         let radiance = T::radiance(&tracer.at(time), ray, points, rays);
-        if <T::Channels as Channels>::FIXED.is_some() {
-            rays.check(radiance);
-        }
-        radiance.scale(weight)
+        let negative = <T::Channels as Channels>::FIXED.is_some() && is_negative(radiance);
+        PathSample { radiance: radiance.scale(weight), negative }
     }
 
     /// The moment of one sample, in shares of the exposure: one for all rays of its path.
@@ -346,6 +341,14 @@ impl<'a> Renderer<'a> {
         };
         (camera.ray_at(film.position, lens, time), film.weight * camera.weight())
     }
+}
+
+/// What one path has found.
+pub(crate) struct PathSample {
+    /// Weighted by the filter.
+    pub(crate) radiance: Color,
+    /// Whether it was less than no light before.
+    pub(crate) negative: bool,
 }
 
 /// The rendering of some tiles.

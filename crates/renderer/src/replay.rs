@@ -9,7 +9,7 @@ use etendue_scene::geometry::{Hit, Moment, Ray, Rays, SurfacePoint};
 
 use crate::configuration::Configured;
 use crate::path::Transport;
-use crate::render::Renderer;
+use crate::render::{PathSample, Renderer};
 use crate::settings::RenderSettings;
 use crate::statistics::RayCounts;
 
@@ -56,11 +56,27 @@ pub enum Found {
 impl Step {
     /// The surface that the edge leads to.
     pub fn surface(&self) -> Option<&SurfacePoint> {
-        self.rays.iter().rev().find_map(|traced| match &traced.found {
+        self.rays.iter().rev().find_map(TracedRay::surface)
+    }
+}
+
+impl TracedRay {
+    /// The surface that it met.
+    fn surface(&self) -> Option<&SurfacePoint> {
+        match &self.found {
             Found::Surface(point, _) => Some(point),
             _ => None,
-        })
+        }
     }
+}
+
+/// A path that the largest number of edges cuts.
+#[derive(Clone, Copy, Debug)]
+pub struct Cut {
+    /// What it still carries: the largest channel of its throughput. More than one where it was cut in several places.
+    pub throughput: f64,
+    /// What its last ray met; in a medium it is cut on the way there.
+    pub surface: Option<SurfacePoint>,
 }
 
 impl Replay {
@@ -70,6 +86,17 @@ impl Replay {
     /// The first step with which the sample is no longer finite.
     pub fn first_not_finite(&self) -> Option<usize> {
         self.steps.iter().position(|step| !step.radiance.is_finite())
+    }
+
+    /// The first step that brings less than no light in some channel.
+    pub fn first_negative(&self) -> Option<usize> {
+        let mut before = [0.0; 3];
+        self.steps.iter().position(|step| {
+            let found = step.radiance.to_array();
+            let less = found.iter().zip(before).any(|(&found, before)| found < before);
+            before = found;
+            less
+        })
     }
 }
 
@@ -98,6 +125,16 @@ impl Renderer<'_> {
         Replay { steps, radiance }
     }
 
+    /// Where the path of a sample is cut, if it is.
+    pub fn cut(&self, pixel: [u32; 2], index: u64) -> Option<Cut> {
+        let log = RefCell::default();
+        let settings = &self.settings;
+        let sample = OneSample { renderer: self, settings, pixel, index, recorded: Some(&log) };
+        let (_, counts) = self.configured(sample);
+        let surface = log.into_inner().iter().rev().find_map(TracedRay::surface).copied();
+        (counts.cut > 0).then(|| Cut { throughput: counts.cut_share(1), surface })
+    }
+
     fn traced(
         &self,
         pixel: [u32; 2],
@@ -108,14 +145,14 @@ impl Renderer<'_> {
         let mut settings = self.settings.clone();
         settings.path.max_depth = max_depth;
         let recorded = Some(&log);
-        let radiance = self.configured(OneSample {
+        let (sample, _) = self.configured(OneSample {
             renderer: self,
             settings: &settings,
             pixel,
             index,
             recorded,
         });
-        (radiance, log.into_inner())
+        (sample.radiance, log.into_inner())
     }
 }
 
@@ -130,15 +167,17 @@ pub(crate) struct OneSample<'r, 'a> {
 }
 
 impl Configured for OneSample<'_, '_> {
-    type Output = Color;
+    type Output = (PathSample, RayCounts);
 
-    fn run<S: Sampler, T: Transport>(self) -> Color {
+    fn run<S: Sampler, T: Transport>(self) -> Self::Output {
         let Self { renderer, settings, pixel, index, recorded } = self;
         let points = S::at(settings.seed, pixel, index);
         let filter = renderer.filter.pixel(pixel);
         let rays = Recorder { moment: renderer.scene.geometry.at(0.0), renderer, recorded };
         let tracer = renderer.tracer_with::<T::Channels, _>(rays, settings);
-        renderer.path_sample::<S, T, _>(&tracer, &filter, &points, &mut RayCounts::default())
+        let mut counts = RayCounts::default();
+        let sample = renderer.path_sample::<S, T, _>(&tracer, &filter, &points, &mut counts);
+        (sample, counts)
     }
 }
 

@@ -37,6 +37,11 @@ impl Tile {
             .collect()
     }
 
+    /// Number of its pixels.
+    pub(crate) fn area(self) -> usize {
+        self.size[0] as usize * self.size[1] as usize
+    }
+
     /// The pixels of the tile, row by row.
     pub(crate) fn pixels(self) -> impl Iterator<Item = [u32; 2]> {
         let Self { offset: [left, top], size: [width, height] } = self;

@@ -10,6 +10,7 @@
 //! CRC-32                 u32, of everything before it
 //! ```
 
+use std::io::Read;
 use std::time::Duration;
 
 use etendue_renderer::Accumulation;
@@ -19,13 +20,12 @@ use serde::{Deserialize, Serialize};
 use super::identity::Identity;
 use super::recipe::Recipe;
 use super::shard::Shard;
-use crate::failure::{Exit, Failure};
 
 /// What files of stored renders begin with.
 const MAGIC: [u8; 8] = *b"etendue\x1a";
 
 /// Version of the format.
-const FORMAT: u32 = 1;
+const FORMAT: u32 = 2;
 
 /// Bytes before the header.
 const PREFIX: usize = 8 + 4 + 4 + 8;
@@ -46,12 +46,32 @@ pub(crate) struct Header {
     pub(crate) seconds: f64,
     /// What was compiled in.
     pub(crate) configuration: String,
+    /// Whether nothing is left to draw; rounds may always go on.
+    pub(crate) whole: bool,
 }
 
 impl Header {
     /// The time of rendering so far.
     pub(crate) fn rendered_for(&self) -> Duration {
         Duration::try_from_secs_f64(self.seconds).unwrap_or_default()
+    }
+
+    /// Reads no more of a stored render than its header, whose checksum remains to be tested.
+    ///
+    /// # Errors
+    /// What is wrong with it.
+    pub(crate) fn read(mut file: impl Read) -> Result<Self, String> {
+        let mut read = |count: u64| {
+            let mut bytes = Vec::new();
+            let read = file.by_ref().take(count).read_to_end(&mut bytes);
+            read.map(|_| bytes).map_err(|error| error.to_string())
+        };
+        let prefix = Prefix::parse(&read(PREFIX as u64)?)?;
+        Self::parse(&read(prefix.header.into())?)
+    }
+
+    fn parse(bytes: &[u8]) -> Result<Self, String> {
+        serde_json::from_slice(bytes).map_err(|error| format!("its header: {error}"))
     }
 }
 
@@ -72,16 +92,16 @@ pub(crate) struct Stored {
 }
 
 impl State {
-    fn encode(&self) -> (u8, Vec<u8>) {
-        let mut body = Vec::new();
+    /// Adds a byte that says what it is, and what [`decode`](Self::decode) reads.
+    fn encode(&self, bytes: &mut Vec<u8>) {
         match self {
             Self::Plain(accumulation) => {
-                accumulation.encode(&mut body);
-                (0, body)
+                bytes.push(0);
+                accumulation.encode(bytes);
             }
             Self::Progressive(state) => {
-                state.encode(&mut body);
-                (1, body)
+                bytes.push(1);
+                state.encode(bytes);
             }
         }
     }
@@ -97,38 +117,64 @@ impl State {
     }
 }
 
-/// Most bytes of an attribute of an EXR picture.
-const MOST_OF_PART: usize = i32::MAX as usize;
+/// The numbers before the header.
+struct Prefix {
+    /// Bytes of the header.
+    header: u32,
+    /// Bytes of the body.
+    body: u64,
+}
+
+impl Prefix {
+    /// Reads what `bytes` begin with.
+    fn parse(bytes: &[u8]) -> Result<Self, String> {
+        let Some(numbers) = bytes.strip_prefix(&MAGIC) else {
+            return Err(if MAGIC.starts_with(bytes) {
+                CUT_SHORT.to_owned()
+            } else {
+                "it is no checkpoint of a render".to_owned()
+            });
+        };
+        if bytes.len() < PREFIX {
+            return Err(CUT_SHORT.to_owned());
+        }
+        let number = |range: core::ops::Range<usize>| {
+            numbers[range].iter().rev().fold(0_u64, |sum, &byte| sum << 8 | u64::from(byte))
+        };
+        let format = number(0..4);
+        if format != u64::from(FORMAT) {
+            return Err(format!("its format is {format}, and this version reads format {FORMAT}"));
+        }
+        Ok(Self { header: number(4..8) as u32, body: number(8..16) })
+    }
+
+    fn write(&self, bytes: &mut [u8]) {
+        let numbers = MAGIC.into_iter().chain(FORMAT.to_le_bytes());
+        let numbers = numbers.chain(self.header.to_le_bytes()).chain(self.body.to_le_bytes());
+        for (byte, number) in bytes.iter_mut().zip(numbers) {
+            *byte = number;
+        }
+    }
+}
+
+const CUT_SHORT: &str = "it is cut short";
 
 impl Stored {
-    /// The bytes of a part of a picture, which it is written into.
-    ///
-    /// # Errors
-    /// They are too many.
-    pub(crate) fn to_part(&self) -> Result<Vec<u8>, Failure> {
-        let bytes = self.to_bytes().map_err(|error| Failure::new(Exit::Internal, error))?;
-        if bytes.len() > MOST_OF_PART {
-            return Err(Failure::new(
-                Exit::Resource,
-                "the part of the render is larger than the 2 GiB that a picture has room for; render crops",
-            ));
-        }
-        Ok(bytes)
+    /// * `header`: of the render; its time and whether it is whole are set here.
+    pub(crate) fn new(header: &Header, seconds: f64, state: State) -> Self {
+        let whole = matches!(&state, State::Plain(sums) if sums.is_whole());
+        Self { header: Header { seconds, whole, ..header.clone() }, state }
     }
 
     /// The bytes of a file.
     pub(crate) fn to_bytes(&self) -> Result<Vec<u8>, String> {
-        let header = serde_json::to_vec(&self.header).map_err(|error| error.to_string())?;
-        let (kind, body) = self.state.encode();
-        let header_length = u32::try_from(header.len()).map_err(|error| error.to_string())?;
-        let mut bytes = Vec::with_capacity(PREFIX + header.len() + 1 + body.len() + 4);
-        bytes.extend(MAGIC);
-        bytes.extend(FORMAT.to_le_bytes());
-        bytes.extend(header_length.to_le_bytes());
-        bytes.extend((1 + body.len() as u64).to_le_bytes());
-        bytes.extend(header);
-        bytes.push(kind);
-        bytes.extend(body);
+        let mut bytes = vec![0; PREFIX];
+        serde_json::to_writer(&mut bytes, &self.header).map_err(|error| error.to_string())?;
+        let begin = bytes.len();
+        let header = u32::try_from(begin - PREFIX).map_err(|error| error.to_string())?;
+        self.state.encode(&mut bytes);
+        let body = (bytes.len() - begin) as u64;
+        Prefix { header, body }.write(&mut bytes);
         bytes.extend(crc32fast::hash(&bytes).to_le_bytes());
         Ok(bytes)
     }
@@ -138,37 +184,21 @@ impl Stored {
     /// # Errors
     /// What is wrong with them.
     pub(crate) fn from_bytes(bytes: &[u8]) -> Result<Self, String> {
-        let cut_short = || "it is cut short".to_owned();
-        let Some(rest) = bytes.strip_prefix(&MAGIC) else {
-            return Err(if MAGIC.starts_with(bytes) {
-                cut_short()
-            } else {
-                "it is no checkpoint of a render".to_owned()
-            });
-        };
-        let (numbers, rest) = rest.split_at_checked(PREFIX - MAGIC.len()).ok_or_else(cut_short)?;
-        let number = |range: core::ops::Range<usize>| {
-            numbers[range].iter().rev().fold(0_u64, |sum, &byte| sum << 8 | u64::from(byte))
-        };
-        let (format, header_length, body_length) = (number(0..4), number(4..8), number(8..16));
-        if format != u64::from(FORMAT) {
-            return Err(format!("its format is {format}, and this version reads format {FORMAT}"));
+        let prefix = Prefix::parse(bytes)?;
+        let length = u64::from(prefix.header).saturating_add(prefix.body).saturating_add(4);
+        let rest = (bytes.len() - PREFIX) as u64;
+        if length > rest {
+            return Err(CUT_SHORT.to_owned());
         }
-        let length = header_length.saturating_add(body_length).saturating_add(4);
-        if length > rest.len() as u64 {
-            return Err(cut_short());
-        }
-        if length < rest.len() as u64 || body_length == 0 {
+        if length < rest || prefix.body == 0 {
             return Err("it is damaged: its length is not what it says".to_owned());
         }
         let (content, checksum) = bytes.split_at(bytes.len() - 4);
         if crc32fast::hash(content).to_le_bytes() != checksum {
             return Err("it is damaged: its checksum is not that of its content".to_owned());
         }
-        let (header, body) = content[PREFIX..].split_at(header_length as usize);
-        let header =
-            serde_json::from_slice(header).map_err(|error| format!("its header: {error}"))?;
-        Ok(Self { header, state: State::decode(body[0], &body[1..])? })
+        let (header, body) = content[PREFIX..].split_at(prefix.header as usize);
+        Ok(Self { header: Header::parse(header)?, state: State::decode(body[0], &body[1..])? })
     }
 }
 
@@ -187,6 +217,7 @@ mod tests {
             configuration: "surfaces".to_owned(),
             scene: "a.xml".to_owned(),
             shard: Some(Shard { index: 1, count: 2 }),
+            whole: false,
         };
         Stored { header, state: State::Plain(Accumulation::new(crop, 1..3)) }
     }
@@ -195,6 +226,8 @@ mod tests {
     fn it_comes_back() {
         let bytes = stored().to_bytes().expect("small");
         assert_eq!(Stored::from_bytes(&bytes), Ok(stored()));
+        assert_eq!(Header::read(&bytes[..]), Ok(stored().header));
+        assert!(Header::read(&bytes[..PREFIX + 9]).is_err());
     }
 
     #[test]

@@ -98,8 +98,7 @@ impl Keeper {
         let interval = self.interval;
         let mut save = || {
             let seconds = header.seconds + begin.elapsed().as_secs_f64();
-            let header = Header { seconds, ..header.clone() };
-            self.save(&Stored { header, state: snapshot() })
+            self.save(&Stored::new(header, seconds, snapshot()))
         };
         thread::scope(|scope| {
             let writer = scope.spawn(|| {

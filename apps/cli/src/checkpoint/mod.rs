@@ -9,6 +9,7 @@
 //! | `recipe` | the command line that made it |
 //! | `keeper` | writes a checkpoint now and then, on a thread of its own |
 //! | `shard` | a part of the samples |
+//! | `part` | what was drawn of it, behind its picture |
 
 mod content;
 mod envelope;
@@ -16,6 +17,7 @@ mod generations;
 mod identity;
 mod keeper;
 mod lock;
+mod part;
 mod recipe;
 mod shard;
 #[cfg(test)]
@@ -26,5 +28,6 @@ pub(crate) use envelope::{Header, State, Stored};
 pub(crate) use generations::folder;
 pub(crate) use identity::Identity;
 pub(crate) use keeper::{Keeper, Target};
+pub(crate) use part::Part;
 pub(crate) use recipe::{Changes, Recipe};
 pub(crate) use shard::Shard;

@@ -1,16 +1,15 @@
 //! `etendue merge`: from the parts of a render to its picture.
 
 use core::ops::Range;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use etendue_renderer::Accumulation;
 
 use super::encoding_arguments::EncodingArguments;
-use super::render::part;
-use crate::checkpoint::{Header, Shard, State, Stored};
+use crate::checkpoint::{Header, Part, Shard, State};
 use crate::failure::{Exit, Failure};
-use crate::output::{Metadata, Output};
-use crate::progress::Quiet;
+use crate::output::{Metadata, Output, of_bad_samples};
+use crate::progress::{ProgressDisplay, Quiet, Standing};
 
 /// Joins the parts that `etendue render --shard` drew, in any order, to the picture of a render in one go, bit by bit.
 #[derive(Debug, clap::Args)]
@@ -27,61 +26,68 @@ pub(crate) struct Arguments {
     quiet: Quiet,
 }
 
-/// A part and where it was read.
-struct Part {
-    path: PathBuf,
-    header: Header,
-    sums: Accumulation,
-}
-
 impl Part {
-    fn read(path: &Path) -> Result<Self, Failure> {
-        let Stored { header, state } = part(path)?;
-        let State::Plain(sums) = state else {
-            let path = path.display();
-            return Err(Failure::usage(format!("{path}: rounds of a render cannot be joined")));
-        };
-        let part = Self { path: path.to_path_buf(), header, sums };
-        if !part.sums.is_whole() {
-            return Err(part.refuse("the part is not whole; the command that drew it finishes it"));
-        }
-        Ok(part)
-    }
-
     fn refuse(&self, message: &str) -> Failure {
-        Failure::usage(format!("{}: {message}", self.path.display()))
+        Failure::usage(format!("{}: {message}", self.path().display()))
     }
 
-    /// That two parts are of one render.
-    fn check_same_render(&self, first: &Self) -> Result<(), Failure> {
+    /// The samples that it is to hold.
+    fn samples(&self) -> Range<u32> {
+        let all = self.header.samples_per_pixel;
+        self.header.shard.map_or(0..all, |shard| shard.samples(all))
+    }
+
+    /// That it is whole, and of the same render as another.
+    fn check(&self, first: &Self) -> Result<(), Failure> {
+        if !self.header.whole {
+            return Err(self.refuse("the part is not whole; the command that drew it finishes it"));
+        }
         let [then, now] = [self, first].map(|part| part.header.samples_per_pixel);
         let difference = match self.header.identity.difference(&first.header.identity) {
             None if then != now => Some(format!("it was made with --spp {then}, now it is {now}")),
             difference => difference,
         };
         difference.map_or(Ok(()), |difference| {
-            let first = first.path.display();
+            let first = first.path().display();
             Err(self
                 .refuse(&format!("the part is not of the same render as {first}: {difference}")))
         })
+    }
+
+    /// Adds its sums to those of all parts before it.
+    fn join(&self, before: Option<Accumulation>) -> Result<Accumulation, Failure> {
+        let sums = match self.read()?.state {
+            State::Plain(sums) if sums.is_whole() && sums.samples() == self.samples() => sums,
+            _ => return Err(self.refuse("the part is not what it says of itself")),
+        };
+        match before {
+            Some(before) => {
+                before.joined(sums).ok_or_else(|| self.refuse("the part is of another crop"))
+            }
+            None => Ok(sums),
+        }
     }
 }
 
 pub(crate) fn run(arguments: &Arguments) -> Result<Exit, Failure> {
     let output = Output::check(&arguments.output)?;
+    // Everything that can be known from their headers is tested before any of them is read.
     let mut parts =
-        arguments.parts.iter().map(|path| Part::read(path)).collect::<Result<Vec<_>, _>>()?;
-    if let [first, others @ ..] = &parts[..] {
-        others.iter().try_for_each(|part| part.check_same_render(first))?;
+        arguments.parts.iter().map(|path| Part::open(path)).collect::<Result<Vec<_>, _>>()?;
+    if let [first, ..] = &parts[..] {
+        parts.iter().try_for_each(|part| part.check(first))?;
     }
-    parts.sort_by_key(|part| part.sums.samples().start);
+    parts.sort_by_key(|part| part.samples().start);
     check_ranges(&parts)?;
     let header = parts[0].header.clone();
     let seconds = parts.iter().map(|part| part.header.seconds).sum();
-    let sums = parts.into_iter().map(|part| part.sums).reduce(|all, sums| {
-        // Ranges that have been checked fit.
-        all.joined(&sums).unwrap_or(all)
-    });
+    let display = ProgressDisplay::new("merging", arguments.quiet);
+    let mut sums = None;
+    for (index, part) in parts.iter().enumerate() {
+        sums = Some(part.join(sums)?);
+        display.update(Standing::parts(index + 1, parts.len()));
+    }
+    display.finish();
     let Some(sums) = sums else { return Err(Failure::usage("there are no parts")) };
     let metadata = Metadata {
         scene: header.scene.clone(),
@@ -95,7 +101,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Exit, Failure> {
         part: None,
     };
     let encoding = arguments.encoding.encoding();
-    output.write_or_rescue(&sums.image(), &[], encoding, &metadata, None)?;
+    let layers = of_bad_samples(&metadata.statistics, &sums.crop());
+    output.write_or_rescue(&sums.image(), &layers, encoding, &metadata, None)?;
     if !arguments.quiet.quiet {
         eprintln!(
             "etendue: {} of {} parts, {} samples, {} rays",
@@ -111,12 +118,12 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Exit, Failure> {
 /// That the ranges of parts in order cover all samples once.
 fn check_ranges(parts: &[Part]) -> Result<(), Failure> {
     for pair in parts.windows(2) {
-        let [a, b] = [&pair[0], &pair[1]].map(|part| part.sums.samples());
+        let [a, b] = [&pair[0], &pair[1]].map(Part::samples);
         if b.start < a.end {
             let both = named(&(b.start..a.end.min(b.end)));
             return Err(pair[1].refuse(&format!(
                 "the part overlaps with {}: both hold the samples {both}",
-                pair[0].path.display()
+                pair[0].path().display()
             )));
         }
     }
@@ -126,7 +133,7 @@ fn check_ranges(parts: &[Part]) -> Result<(), Failure> {
     };
     let mut missing = Vec::new();
     let mut end = 0;
-    let ranges = parts.iter().map(|part| part.sums.samples());
+    let ranges = parts.iter().map(Part::samples);
     let behind_all = core::iter::once(*samples_per_pixel..*samples_per_pixel);
     for range in ranges.chain(behind_all) {
         if end < range.start {

@@ -1,5 +1,6 @@
 //! `etendue render`: from a scene to a picture.
 
+mod defects;
 mod draw;
 mod replay;
 mod report;
@@ -23,14 +24,13 @@ use super::values::{crop, duration, max_depth, relative_error, size};
 use crate::checkpoint::{Header, Recipe, Shard, State, Stored, Target, folder};
 use crate::failure::{Exit, Failure};
 use crate::interrupt::Interrupt;
-use crate::output::{Aov, Output, of_part};
+use crate::output::{Aov, Output, of_bad_samples, of_part};
 use crate::progress::Quiet;
+use defects::Defects;
 use draw::draw;
 use report::Report;
 use storage::Storage;
 use task::Task;
-
-pub(crate) use storage::part;
 
 /// Renders a scene to a picture.
 #[derive(Debug, clap::Args)]
@@ -263,14 +263,9 @@ fn render(arguments: &Arguments, recipe: &Recipe) -> Result<Exit, Failure> {
     if let Some(sums) = &part {
         drawing.layers = of_part(sums);
     }
-    let bad = drawing.statistics.non_finite.first();
-    // Paths that share are not those of a sample by itself.
-    let sources = if arguments.reuse || bad.is_empty() {
-        vec![None; bad.len()]
-    } else {
-        replay::sources(&scene, &loaded.origins, bad)
-    };
-    let report = Report { render_seconds, build_seconds, drawing: &drawing, sources: &sources };
+    drawing.layers.extend(of_bad_samples(&drawing.statistics, &scene.film.crop));
+    let defects = Defects::of(&drawing.statistics, &scene, &loaded.origins, arguments.reuse);
+    let report = Report { render_seconds, build_seconds, drawing: &drawing, defects: &defects };
     report.warn_of_bad_samples(scene.sampling.seed);
     report.warn_of_overflow();
 
@@ -278,8 +273,10 @@ fn render(arguments: &Arguments, recipe: &Recipe) -> Result<Exit, Failure> {
     let mut metadata = report.metadata(arguments, &scene);
     if let Some((header, sums)) = header.zip(part) {
         let configuration = metadata.configuration.clone();
-        let header = Header { seconds: metadata.seconds, configuration, ..header };
-        metadata.part = Some(Stored { header, state: State::Plain(sums) }.to_part()?);
+        let header = Header { configuration, ..header };
+        let stored = Stored::new(&header, metadata.seconds, State::Plain(sums));
+        let bytes = stored.to_bytes().map_err(|error| Failure::new(Exit::Internal, error))?;
+        metadata.part = Some(bytes);
     }
     let elsewhere = arguments.checkpoint.as_ref().map(|target| folder(&target.path));
     output.write_or_rescue(&drawing.image, &drawing.layers, encoding, &metadata, elsewhere)?;

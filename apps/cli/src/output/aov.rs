@@ -1,6 +1,7 @@
 //! Layers beside the picture ("arbitrary output variables").
 
-use etendue_renderer::{Accumulation, Features, Image};
+use etendue_renderer::{Accumulation, Features, Image, Statistics};
+use etendue_scene::film::Crop;
 use etendue_scene::scene::Layer;
 
 /// What is known of pixels beside their colour.
@@ -123,8 +124,44 @@ pub(crate) fn of_part(sums: &Accumulation) -> Vec<Channel> {
     channels
 }
 
+/// How many samples of each pixel are no light, of renders in which there are such.
+///
+/// * `crop`: the part of the film that the picture shows.
+pub(crate) fn of_bad_samples(statistics: &Statistics, crop: &Crop) -> Vec<Channel> {
+    let [width, height] = crop.size.map(|n| n as usize);
+    let bad = [("non_finite.N", &statistics.non_finite), ("negative.N", &statistics.negative)];
+    let bad = bad.into_iter().filter(|(_, samples)| samples.count() > 0);
+    bad.map(|(name, samples)| {
+        let mut counts = vec![0; width * height];
+        for ([row, column], count) in samples.pixels() {
+            let [x, y] = [column - crop.offset[0], row - crop.offset[1]].map(|n| n as usize);
+            counts[y * width + x] = count;
+        }
+        Channel { name, plane: Plane::Count(counts) }
+    })
+    .collect()
+}
+
 /// The three channels of colours.
 pub(crate) fn colors(names: [&'static str; 3], axis: impl Fn(usize) -> Vec<f32>) -> Vec<Channel> {
     let channel = |(i, name)| Channel { name, plane: Plane::Color(axis(i)) };
     names.into_iter().enumerate().map(channel).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use etendue_renderer::SampleAddress;
+
+    #[test]
+    fn samples_that_are_no_light_are_shown_where_they_are() {
+        let crop = Crop { offset: [10, 20], size: [2, 3] };
+        let mut statistics = Statistics::default();
+        assert_eq!(of_bad_samples(&statistics, &crop), []);
+        for (column, row, sample) in [(11, 20, 5), (10, 22, 0), (11, 20, 2)] {
+            statistics.non_finite.record(SampleAddress { row, column, sample });
+        }
+        let plane = Plane::Count(vec![0, 2, 0, 0, 1, 0]);
+        assert_eq!(of_bad_samples(&statistics, &crop), [Channel { name: "non_finite.N", plane }]);
+    }
 }

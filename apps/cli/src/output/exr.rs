@@ -39,11 +39,6 @@ pub(super) fn encode(
         let value = AttributeValue::Text(Text::new_or_none(&value).unwrap_or_default());
         attributes.other.insert(Text::from(name), value);
     }
-    if let Some(part) = &metadata.part {
-        let value =
-            AttributeValue::Custom { kind: Text::from("etendue"), bytes: part.as_slice().into() };
-        attributes.other.insert(Text::from(PART), value);
-    }
     let rgb = colors(["R", "G", "B"], |axis| {
         picture.pixels().iter().map(|pixel| pixel.to_array()[axis]).collect()
     });
@@ -51,23 +46,21 @@ pub(super) fn encode(
         AnyChannel::new(Text::from(channel.name), samples(&channel.plane, precision))
     });
     let channels = AnyChannels::sort(channels.collect());
-    Image::from_layer(Layer::new(
-        (size[0], size[1]),
-        attributes,
-        Encoding::SMALL_LOSSLESS,
-        channels,
-    ))
-    .write()
-    .to_buffered(&mut Cursor::new(bytes))?;
+    // The picture of a part is looked at now and then, and noise all over: no time is spent on making it small.
+    let encoding =
+        if metadata.part.is_some() { Encoding::FAST_LOSSLESS } else { Encoding::SMALL_LOSSLESS };
+    Image::from_layer(Layer::new((size[0], size[1]), attributes, encoding, channels))
+        .write()
+        .to_buffered(&mut Cursor::new(bytes))?;
     Ok(())
 }
 
-/// The part of a render that an EXR picture holds; `None` where it is no EXR picture or holds none.
-pub(crate) fn read_part(path: &Path) -> Option<Vec<u8>> {
+/// Bytes of the part of a render that follows an EXR picture; `None` where it is no EXR picture or says nothing of one.
+pub(crate) fn part_length(path: &Path) -> Option<u64> {
     let meta = MetaData::read_from_file(path, false).ok()?;
     let mut attributes = meta.headers.into_iter().map(|header| header.own_attributes.other);
     match attributes.find_map(|mut other| other.remove(&Text::from(PART)))? {
-        AttributeValue::Custom { bytes, .. } => Some(bytes.into_vec()),
+        AttributeValue::Text(length) => length.to_string().parse().ok(),
         _ => None,
     }
 }

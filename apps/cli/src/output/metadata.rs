@@ -1,7 +1,5 @@
 //! What a picture says about its own making.
 
-use core::iter::repeat;
-
 use etendue_renderer::progressive::ImageError;
 use etendue_renderer::{SampleAddress, Statistics};
 
@@ -18,23 +16,26 @@ pub(crate) struct Metadata {
     pub(crate) seed: u64,
     /// Seconds of rendering.
     pub(crate) seconds: f64,
-    /// Where each of the first samples that are not finite comes from, if that is known.
-    pub(crate) sources: Vec<Option<String>>,
+    /// Where samples that are no light come from, and light that is cut, as far as that is known: names and values of entries.
+    pub(crate) sources: Vec<(&'static str, String)>,
     /// What was compiled in.
     pub(crate) configuration: String,
     /// The relative error of the picture, where it is known.
     pub(crate) error: Option<ImageError>,
-    /// The stored render of which this is a part, as [`Stored`](crate::checkpoint::Stored) has it.
+    /// The stored render of which this is a part, as [`Stored`](crate::checkpoint::Stored) has it: it follows the picture.
     pub(crate) part: Option<Vec<u8>>,
 }
 
-/// The attribute of an EXR picture that holds a part of a render.
+/// Name of the number of bytes of a part of a render.
 pub(super) const PART: &str = "etendue.part";
+
+/// Most samples of one defect that are named.
+const NAMED: usize = 16;
 
 impl Metadata {
     /// Name and value of every entry.
     pub(crate) fn entries(&self) -> Vec<(&'static str, String)> {
-        let Statistics { samples, rays, non_finite } = &self.statistics;
+        let Statistics { samples, rays, non_finite, negative } = &self.statistics;
         let mut entries = vec![
             ("etendue.version", env!("CARGO_PKG_VERSION").to_owned()),
             ("etendue.scene", self.scene.clone()),
@@ -43,21 +44,27 @@ impl Metadata {
             ("etendue.seed", self.seed.to_string()),
             ("etendue.seconds", format!("{:.3}", self.seconds)),
             ("etendue.non_finite", non_finite.count().to_string()),
-            ("etendue.negative", rays.negative.to_string()),
+            ("etendue.negative", negative.count().to_string()),
             ("etendue.cut_paths", rays.cut.to_string()),
             ("etendue.cut_throughput", rays.cut_share(*samples).to_string()),
             ("etendue.configuration", self.configuration.clone()),
         ];
-        let sources = self.sources.iter().map(Option::as_ref).chain(repeat(None));
-        let first = non_finite.first().iter().zip(sources).map(|(address, source)| {
-            let SampleAddress { column, row, sample } = address;
-            let from = source.map_or(String::new(), |source| format!(" from {source}"));
-            format!("{column},{row},{sample}{from}")
-        });
-        let first: Vec<String> = first.collect();
-        if !first.is_empty() {
-            entries.push(("etendue.first_non_finite", first.join("; ")));
+        if let Some(part) = &self.part {
+            entries.push((PART, part.len().to_string()));
         }
+        for (name, samples) in
+            [("etendue.first_non_finite", non_finite), ("etendue.first_negative", negative)]
+        {
+            let first = samples.some().into_iter().take(NAMED).map(|address| {
+                let SampleAddress { column, row, sample } = address;
+                format!("{column},{row},{sample}")
+            });
+            let first: Vec<String> = first.collect();
+            if !first.is_empty() {
+                entries.push((name, first.join("; ")));
+            }
+        }
+        entries.extend(self.sources.iter().cloned());
         if let Some(error) = self.error {
             entries.extend([
                 ("etendue.error", error.estimate.to_string()),

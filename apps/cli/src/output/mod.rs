@@ -14,8 +14,8 @@ mod metadata;
 mod pfm;
 mod png;
 
-pub(crate) use self::exr::{Precision, read_part};
-pub(crate) use aov::{Aov, Channel, Sources, of_part};
+pub(crate) use self::exr::{Precision, part_length};
+pub(crate) use aov::{Aov, Channel, Sources, of_bad_samples, of_part};
 pub(crate) use destination::Destination;
 pub(crate) use metadata::Metadata;
 
@@ -113,6 +113,8 @@ impl Output {
             Format::Pfm => pfm::encode(&mut bytes, image),
         }
         .map_err(|error| Failure::write(self.path(), error))?;
+        // Readers of pictures do not look beyond the end that the header tells.
+        bytes.extend_from_slice(metadata.part.as_deref().unwrap_or_default());
         self.destination.write(&bytes)
     }
 }

@@ -14,9 +14,10 @@
 //! has samples everywhere, and no tile takes long.
 //!
 //! # Memory
-//! Tiles at rest are immutable and packed: 40 to 80 bytes per pixel. To copy an accumulation is to copy references to its tiles,
+//! Tiles at rest are immutable and packed: 40 to 60 bytes per pixel. To copy an accumulation is to copy references to its tiles,
 //! which takes a millisecond for the largest pictures; rendering goes on meanwhile.
 
+mod column;
 mod draw;
 mod packed;
 mod pixel;

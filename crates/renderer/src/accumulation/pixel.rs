@@ -39,24 +39,21 @@ impl PixelMoments {
         }
     }
 
-    /// Adds the samples of another part of the same pixel.
-    pub(super) fn merge(&mut self, other: &Self) {
-        let mine = self.sums.iter_mut().chain(&mut self.squares);
-        for (sum, more) in mine.zip(other.sums.iter().chain(&other.squares)) {
-            sum.merge(more);
-        }
-        self.count = self.count.saturating_add(other.count);
+    /// The sums and then the squares, channel by channel.
+    pub(super) fn all(&self) -> [&ExactSum; 6] {
+        let ([r, g, b], [rr, gg, bb]) = (&self.sums, &self.squares);
+        [r, g, b, rr, gg, bb]
     }
 
-    /// Mean of the samples that count, rounded once; black if there are none.
+    /// Mean of the samples that count.
     pub(crate) fn mean(&self) -> Color {
-        self.sums.map(|sum| sum.divided_by(self.count)).into()
+        mean(&self.sums, self.count)
     }
+}
 
-    /// Mean of their squares.
-    pub(super) fn mean_square(&self) -> Color {
-        self.squares.map(|sum| sum.divided_by(self.count)).into()
-    }
+/// A sum divided by a count and rounded once; black if that is 0.
+pub(super) fn mean(sums: &[ExactSum; 3], count: u32) -> Color {
+    sums.each_ref().map(|sum| sum.divided_by(count)).into()
 }
 
 #[cfg(test)]
@@ -89,6 +86,6 @@ mod tests {
             pixel.add_squares(sample);
         }
         assert_eq!(pixel.mean(), [0.0, 3.0, 0.5].into());
-        assert_eq!(pixel.mean_square(), [f32::MAX, 10.0, 0.25].into());
+        assert_eq!(mean(&pixel.squares, pixel.count), [f32::MAX, 10.0, 0.25].into());
     }
 }

@@ -7,7 +7,6 @@ use etendue_scene::Color;
 use etendue_scene::film::Crop;
 
 use super::packed::{LEAST, PackedTile};
-use super::pixel::PixelMoments;
 use crate::codec::{Reader, StateError, Write as _};
 use crate::film::Image;
 use crate::statistics::Statistics;
@@ -96,19 +95,20 @@ impl Accumulation {
 
     /// The means of the pixels; those without samples are black.
     pub fn image(&self) -> Image {
-        self.map(PixelMoments::mean)
+        self.map(PackedTile::mean)
     }
 
     /// The means of the squares of the samples, channel by channel.
     pub fn second_moments(&self) -> Image {
-        self.map(PixelMoments::mean_square)
+        self.map(PackedTile::mean_square)
     }
 
     /// Number of samples of each pixel that count, row by row.
     pub fn counts(&self) -> Vec<u32> {
         let mut counts = vec![0; self.crop.size.map(|n| n as usize).iter().product()];
-        self.visit(|[x, y], pixel| {
-            counts[y as usize * self.crop.size[0] as usize + x as usize] = pixel.count;
+        self.visit(|[x, y], tile, pixel, pixels| {
+            let place = y as usize * self.crop.size[0] as usize + x as usize;
+            counts[place] = tile.count(pixel, pixels);
         });
         counts
     }
@@ -122,24 +122,25 @@ impl Accumulation {
         all
     }
 
-    fn map(&self, f: impl Fn(&PixelMoments) -> Color) -> Image {
+    fn map(&self, f: impl Fn(&PackedTile, usize, usize) -> Color) -> Image {
         let mut image = Image::black(self.crop.size);
-        self.visit(|position, pixel| image.set(position, f(pixel)));
+        self.visit(|position, tile, pixel, pixels| image.set(position, f(tile, pixel, pixels)));
         image
     }
 
-    /// Calls a function with every pixel and its place in the crop.
-    fn visit(&self, mut f: impl FnMut([u32; 2], &PixelMoments)) {
+    /// Calls a function with the place in the crop of every pixel, its tile, its index there, and the number of pixels of the tile.
+    fn visit(&self, mut f: impl FnMut([u32; 2], &PackedTile, usize, usize)) {
         for (tile, packed) in Tile::cover(&self.crop).into_iter().zip(&self.tiles) {
-            for (pixel, moments) in tile.pixels().zip(packed.unpack(tile)) {
-                f([0, 1].map(|axis| pixel[axis] - self.crop.offset[axis]), &moments);
+            for (index, pixel) in tile.pixels().enumerate() {
+                let place = [0, 1].map(|axis| pixel[axis] - self.crop.offset[axis]);
+                f(place, packed, index, tile.area());
             }
         }
     }
 
     /// The samples of two neighbouring ranges together; `None` where the crops differ, a range is not whole, or one does not end where the
     /// other begins. The result does not depend on which is which.
-    pub fn joined(&self, other: &Self) -> Option<Self> {
+    pub fn joined(self, other: Self) -> Option<Self> {
         let (first, last) =
             if self.samples.start <= other.samples.start { (self, other) } else { (other, self) };
         let fits = first.crop == last.crop
@@ -147,20 +148,15 @@ impl Accumulation {
             && first.is_whole()
             && last.is_whole();
         fits.then(|| {
-            let samples = first.samples.start..last.samples.end;
-            let tiles =
-                Tile::cover(&first.crop).into_iter().zip(first.tiles.iter().zip(&last.tiles));
-            let tiles = tiles.map(|(tile, (a, b))| {
-                let mut pixels: Vec<PixelMoments> = a.unpack(tile).collect();
-                for (pixel, more) in pixels.iter_mut().zip(b.unpack(tile)) {
-                    pixel.merge(&more);
-                }
-                let mut statistics = a.statistics().clone();
-                statistics.merge(b.statistics());
-                Arc::new(PackedTile::new(a.drawn() + b.drawn(), &pixels, statistics))
-            });
-            let drawn = first.drawn + last.drawn;
-            Self { crop: first.crop, samples, tiles: tiles.collect(), drawn }
+            // Tiles of the parts are given back one by one, as those of both are made.
+            let tiles = Tile::cover(&first.crop).into_iter().zip(first.tiles).zip(last.tiles);
+            let tiles = tiles.map(|((tile, a), b)| Arc::new(a.joined(&b, tile)));
+            Self {
+                crop: first.crop,
+                samples: first.samples.start..last.samples.end,
+                tiles: tiles.collect(),
+                drawn: first.drawn + last.drawn,
+            }
         })
     }
 
@@ -170,8 +166,8 @@ impl Accumulation {
         for number in [offset, size, [self.samples.start, self.samples.end]].as_flattened() {
             bytes.u32(*number);
         }
-        for tile in &self.tiles {
-            tile.write(bytes);
+        for (tile, packed) in Tile::cover(&self.crop).into_iter().zip(&self.tiles) {
+            packed.write(tile, bytes);
         }
     }
 

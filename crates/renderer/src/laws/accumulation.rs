@@ -91,14 +91,15 @@ fn ranges_joined_in_any_order_have_the_bits_of_the_whole() {
     assert_eq!(expected.image(), whole(&renderer).image);
     let part = |range| stored(&accumulate(&renderer, Accumulation::new(scene.film.crop, range), 0));
     let [a, b, c] = [part(0..2), part(2..7), part(7..SPP)];
-    let joined = |x: &Accumulation, y: &Accumulation| x.joined(y).expect("neighbours");
+    let joined =
+        |x: &Accumulation, y: &Accumulation| x.clone().joined(y.clone()).expect("neighbours");
     for all in
         [joined(&joined(&a, &b), &c), joined(&c, &joined(&b, &a)), joined(&joined(&c, &b), &a)]
     {
         assert_eq!(all, expected);
     }
-    assert_eq!(a.joined(&c), None, "they are not neighbours");
-    assert_eq!(a.joined(&part(1..7)), None, "they overlap");
+    assert_eq!(a.clone().joined(c), None, "they are not neighbours");
+    assert_eq!(a.joined(part(1..7)), None, "they overlap");
 }
 
 #[test]

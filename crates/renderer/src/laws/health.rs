@@ -8,7 +8,7 @@ use etendue_scene::Color;
 use etendue_scene::scene::SamplerKind;
 
 use super::scenes::{Sketch, rectangle, settings, sphere, with_skies_that_overflow};
-use crate::{NonFiniteSamples, RenderSettings, Renderer, SampleAddress, Strategy};
+use crate::{BadSamples, RenderSettings, Renderer, SampleAddress, Strategy};
 
 fn two_samples_per_pixel() -> RenderSettings {
     RenderSettings {
@@ -32,9 +32,11 @@ fn samples_that_overflow_are_counted_located_and_replayable() {
     let non_finite = &rendering.statistics.non_finite;
     assert!(non_finite.count() > 0);
     assert!(non_finite.count() < rendering.statistics.samples);
-    assert_eq!(non_finite.first().len(), NonFiniteSamples::KEPT);
-    for &SampleAddress { row, column, sample } in non_finite.first() {
+    assert_eq!(non_finite.some().len() as u64, non_finite.count(), "there are few");
+    assert_eq!(rendering.statistics.negative, BadSamples::default());
+    for SampleAddress { row, column, sample } in non_finite.some() {
         assert!(!Spectrum::is_finite(renderer.sample([column, row], sample)));
+        assert!(renderer.replay([column, row], sample).first_not_finite().is_some());
     }
     assert!(rendering.image.pixels().iter().all(|&pixel| Spectrum::is_finite(pixel)));
 }
@@ -85,5 +87,8 @@ fn paths_that_are_cut_are_counted_with_what_they_carry() {
             let found = statistics.rays.cut_share(statistics.samples);
             assert!((found / share - 1.0).abs() < 1e-5, "{max_depth}: {found}");
         }
+        let cut = renderer.cut([1, 2], 1).expect("every path is");
+        assert!((cut.throughput / share - 1.0).abs() < 1e-5, "{max_depth}: {cut:?}");
+        assert!(cut.surface.is_some());
     }
 }

@@ -39,11 +39,12 @@ use etendue_sampling::{Independent, Sampler, Sobol};
 use etendue_scene::geometry::{Rays, Task};
 use etendue_scene::scene::SamplerKind;
 
+use crate::bad_samples::is_negative;
 use crate::configuration::Configuration;
 use crate::film::{Image, PixelFilter};
 use crate::path::{LightSamples, MOST, SharedPath};
 use crate::render::{Progress, Renderer, Rendering};
-use crate::statistics::{SampleAddress, Statistics};
+use crate::statistics::Statistics;
 use crate::tile::Tile;
 use guide::Guide;
 use pixel::{Extension, Find, PilotPixel};
@@ -261,14 +262,13 @@ impl<S: Sampler> Task for ExtendTile<'_, '_, '_, S> {
                 for (i, (member, (path, weight))) in (0..).zip(members.zip(found)) {
                     // Evenly, what does not divide included.
                     member.extension.spend([0, 0, (to_share + i) / paths.len() as u64]);
-                    statistics.rays.check(path.own + path.lent);
+                    let negative = is_negative(path.own + path.lent);
                     let [own, lent, alone] =
                         [path.own, path.lent, path.alone()].map(|light| light.scale(weight));
                     let first = path.first.map_or(own, |first| first.radiance.scale(weight));
-                    if !member.extension.add(Find { own, lent, alone, first }) {
-                        let [column, row] = member.pixel;
-                        let sample = u64::from(sample);
-                        statistics.non_finite.record(SampleAddress { row, column, sample });
+                    let counts = member.extension.add(Find { own, lent, alone, first });
+                    if !counts || negative {
+                        statistics.record(member.pixel, u64::from(sample), !counts, negative);
                     }
                 }
                 statistics.samples += paths.len() as u64;

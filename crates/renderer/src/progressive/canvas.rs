@@ -31,7 +31,7 @@ impl Canvas {
     /// Pixels without samples.
     pub(super) fn new(crop: Crop) -> Self {
         let tile = |tile: Tile| {
-            let pixels = vec![[Half::default(); 2]; tile.pixels().count()];
+            let pixels = vec![[Half::default(); 2]; tile.area()];
             Arc::new(CanvasTile { pixels, statistics: Statistics::default() })
         };
         Self { crop, tiles: Tile::cover(&crop).into_iter().map(tile).collect() }
@@ -96,7 +96,8 @@ impl Canvas {
     pub(super) fn read(crop: Crop, reader: &mut Reader<'_>) -> Result<Self, StateError> {
         let mut tiles = Vec::new();
         for tile in Tile::cover(&crop) {
-            let statistics = Statistics::read(reader)?;
+            let part = Crop { offset: tile.offset, size: tile.size };
+            let statistics = Statistics::read(reader, &part)?;
             let mut pixels = Vec::new();
             for _ in tile.pixels() {
                 pixels.push([Half::read(reader)?, Half::read(reader)?]);

@@ -20,7 +20,7 @@ use crate::configuration::Configured;
 use crate::film::{Image, PixelSum};
 use crate::path::Transport;
 use crate::render::Renderer;
-use crate::statistics::{SampleAddress, Statistics};
+use crate::statistics::Statistics;
 use crate::tile::Tile;
 
 /// Where the samples of the second half begin: the next run of 2³² samples, for which samplers have
@@ -282,15 +282,15 @@ impl<S: Sampler, T: Transport> Task for ExtendTile<'_, '_, '_, S, T> {
                     for sample in halves[half].next_block() {
                         let sample = first + u64::from(sample);
                         let points = S::at(renderer.settings.seed, pixel, sample);
-                        let radiance = renderer.path_sample::<S, T, R>(
+                        let path = renderer.path_sample::<S, T, R>(
                             &tracer,
                             &filter,
                             &points,
                             &mut statistics.rays,
                         );
-                        if !block.add(radiance) {
-                            let [column, row] = pixel;
-                            statistics.non_finite.record(SampleAddress { row, column, sample });
+                        let counts = block.add(path.radiance);
+                        if !counts || path.negative {
+                            statistics.record(pixel, sample, !counts, path.negative);
                         }
                         statistics.samples += 1;
                     }

@@ -34,9 +34,10 @@ pub(super) fn run(
             "--replay {column},{row},{sample}: the film has {width} columns and {height} rows, both counted from 0"
         )));
     }
-    let renderer = Renderer::new(scene, settings(scene))?;
-    let replay = renderer.replay([column, row], sample);
-    let told = Told { scene, origins, replay: &replay };
+    // One thread for one sample.
+    let settings = RenderSettings { threads: 1, ..RenderSettings::of_scene(scene) };
+    let replay = Renderer::new(scene, settings)?.replay([column, row], sample);
+    let told = Told { scene, origins, replay };
     if arguments.json {
         println!("{}", told.json(address, scene.sampling.seed));
     } else {
@@ -46,33 +47,24 @@ pub(super) fn run(
     Ok(Exit::Done)
 }
 
-/// Where samples that are not finite come from, as far as they are told apart: the material or light of the step at which each one
-/// ceases to be.
-pub(super) fn sources(
-    scene: &Scene,
-    origins: &Origins,
-    addresses: &[SampleAddress],
-) -> Vec<Option<String>> {
-    let Ok(renderer) = Renderer::new(scene, settings(scene)) else {
-        return vec![None; addresses.len()];
-    };
-    let source = |address: &SampleAddress| {
-        let replay = renderer.replay([address.column, address.row], address.sample);
-        Told { scene, origins, replay: &replay }.source()
-    };
-    addresses.iter().map(source).collect()
-}
-
-/// One thread for one sample.
-fn settings(scene: &Scene) -> RenderSettings {
-    RenderSettings { threads: 1, ..RenderSettings::of_scene(scene) }
+/// What a shape is made of, and where the file says so.
+pub(super) fn material(scene: &Scene, origins: &Origins, shape: u32) -> String {
+    let surface = &scene.surfaces[shape as usize];
+    let material = origins.of(Element::Material(surface.material));
+    let light = surface.light.and_then(|light| origins.of(Element::Light(light)));
+    match (material, light) {
+        (Some(material), None) => material.to_string(),
+        (Some(material), Some(light)) => format!("{material}, {light}"),
+        (None, Some(light)) => light.to_string(),
+        (None, None) => "a material that the file does not describe".to_owned(),
+    }
 }
 
 /// A path with the names of what it meets.
-struct Told<'a> {
-    scene: &'a Scene,
-    origins: &'a Origins,
-    replay: &'a Replay,
+pub(super) struct Told<'a> {
+    pub(super) scene: &'a Scene,
+    pub(super) origins: &'a Origins,
+    pub(super) replay: Replay,
 }
 
 impl Told<'_> {
@@ -111,28 +103,18 @@ impl Told<'_> {
         }
     }
 
-    /// What a shape is made of, and where the file says so.
     fn material(&self, shape: u32) -> String {
-        let surface = &self.scene.surfaces[shape as usize];
-        let material = self.origins.of(Element::Material(surface.material));
-        let light = surface.light.and_then(|light| self.origins.of(Element::Light(light)));
-        match (material, light) {
-            (Some(material), None) => material.to_string(),
-            (Some(material), Some(light)) => format!("{material}, {light}"),
-            (None, Some(light)) => light.to_string(),
-            (None, None) => "a material that the file does not describe".to_owned(),
-        }
+        material(self.scene, self.origins, shape)
     }
 
-    /// Where a sample ceases to be finite: at the vertex before that edge, or at what the camera sees.
-    fn source(&self) -> Option<String> {
-        let step = self.replay.first_not_finite()?;
+    /// What a step comes from: the vertex before that edge, or what the camera sees.
+    pub(super) fn source(&self, step: usize) -> String {
         let surface = |step: &Step| step.surface().map(|point| self.material(point.shape.0));
         let steps = &self.replay.steps;
         let vertex = step.checked_sub(1).and_then(|before| surface(&steps[before]));
         vertex
             .or_else(|| surface(&steps[step]))
-            .or_else(|| Some("light from infinitely far away".to_owned()))
+            .unwrap_or_else(|| "light from infinitely far away".to_owned())
     }
 
     fn json(&self, address: SampleAddress, seed: u64) -> Value {

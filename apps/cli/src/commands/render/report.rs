@@ -1,12 +1,12 @@
 //! What a finished render says about itself.
 
 use etendue_math::Spectrum;
-use etendue_renderer::SampleAddress;
 use etendue_renderer::progressive::{CONFIDENCE, ImageError, factor_for_half};
 use etendue_scene::Scene;
 use serde_json::{Value, json};
 
 use super::Arguments;
+use super::defects::Defects;
 use super::draw::{Drawing, Whole};
 use crate::figures::{error_in_percent, seconds};
 use crate::memory::peak_resident_bytes;
@@ -16,8 +16,7 @@ pub(super) struct Report<'a> {
     pub(super) render_seconds: f64,
     pub(super) build_seconds: f64,
     pub(super) drawing: &'a Drawing,
-    /// Where each of the first samples that are not finite comes from, if that is known.
-    pub(super) sources: &'a [Option<String>],
+    pub(super) defects: &'a Defects<'a>,
 }
 
 impl Report<'_> {
@@ -80,7 +79,15 @@ impl Report<'_> {
             statistics: self.drawing.statistics.clone(),
             seed: sampling.seed,
             seconds: self.render_seconds,
-            sources: self.sources.to_vec(),
+            sources: [
+                ("etendue.non_finite_from", self.defects.non_finite.shares()),
+                ("etendue.negative_from", self.defects.negative.shares()),
+                ("etendue.cut_from", self.defects.cut.clone()),
+            ]
+            .into_iter()
+            .filter(|(_, shares)| !shares.is_empty())
+            .map(|(name, shares)| (name, shares.to_string()))
+            .collect(),
             configuration: self.drawing.configuration.name().to_owned(),
             error: self.error(),
             part: None,
@@ -88,38 +95,17 @@ impl Report<'_> {
     }
 
     /// Samples with less than no light.
-    pub(super) fn negative(&self) -> u64 {
-        self.drawing.statistics.rays.negative
+    fn negative(&self) -> u64 {
+        self.drawing.statistics.negative.count()
     }
 
     pub(super) fn warn_of_bad_samples(&self, seed: u64) {
-        if self.negative() > 0 {
-            eprintln!(
-                "etendue: warning: {} samples found less than no light, which is a defect of étendue; please report it with the scene",
-                self.negative()
-            );
-        }
-        if self.non_finite() == 0 {
-            return;
-        }
-        eprintln!(
-            "etendue: warning: {} samples were NaN or infinite and were left out; the first of them \
-             with seed {seed}:",
-            self.non_finite()
+        let Defects { non_finite, negative, .. } = &self.defects;
+        negative.warn(
+            "found less than no light, which is a defect of étendue; please report it with the scene",
+            seed,
         );
-        for (address, source) in self.bad_samples() {
-            let SampleAddress { column, row, sample } = address;
-            let from = source.as_ref().map_or(String::new(), |source| format!(", from {source}"));
-            eprintln!("etendue:   column {column}, row {row}, sample {sample}{from}");
-        }
-        eprintln!(
-            "etendue: the same command with --replay COLUMN,ROW,SAMPLE instead of -o shows the path of one"
-        );
-    }
-
-    /// The first samples that were not finite, and where they come from.
-    fn bad_samples(&self) -> impl Iterator<Item = (SampleAddress, &Option<String>)> {
-        self.drawing.statistics.non_finite.first().iter().copied().zip(self.sources)
+        non_finite.warn("were NaN or infinite and were left out", seed);
     }
 
     pub(super) fn summary(&self, output: &Output) -> String {
@@ -142,8 +128,10 @@ impl Report<'_> {
         let ended = if rays.cut == 0 {
             String::new()
         } else {
+            let cut = &self.defects.cut;
+            let from = if cut.is_empty() { String::new() } else { format!(" ({cut})") };
             format!(
-                "; {:.3} % of the paths had the largest number of edges, with {:.3} % of what the camera's rays carry",
+                "; {:.3} % of the paths had the largest number of edges, with {:.3} % of what the camera's rays carry{from}",
                 100.0 * rays.cut as f64 / statistics.samples.max(1) as f64,
                 100.0 * rays.cut_share(statistics.samples),
             )
@@ -175,15 +163,14 @@ impl Report<'_> {
             "mrays_per_second": self.mrays_per_second(),
             "peak_rss": peak_resident_bytes(),
             "non_finite": self.non_finite(),
-            "first_non_finite": self.bad_samples().map(|(address, source)| json!({
-                "column": address.column,
-                "row": address.row,
-                "sample": address.sample,
-                "from": source,
-            })).collect::<Vec<_>>(),
+            "first_non_finite": self.defects.non_finite.json(),
+            "non_finite_from": self.defects.non_finite.shares().json(),
             "negative": self.negative(),
+            "first_negative": self.defects.negative.json(),
+            "negative_from": self.defects.negative.shares().json(),
             "cut_paths": statistics.rays.cut,
             "cut_throughput": statistics.rays.cut_share(statistics.samples),
+            "cut_from": self.defects.cut.json(),
             "complete": self.drawing.whole == Whole::Yes,
             "error": self.error().map(|error| json!({
                 "estimate": error.estimate,

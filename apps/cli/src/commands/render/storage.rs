@@ -9,9 +9,9 @@ use etendue_scene::Scene;
 use super::Arguments;
 use super::settings::settings;
 use super::task::{Method, Task};
-use crate::checkpoint::{Header, Identity, Keeper, Recipe, Shard, State, Stored};
-use crate::failure::{Exit, Failure};
-use crate::output::{Output, read_part};
+use crate::checkpoint::{Header, Identity, Keeper, Part, Recipe, Shard, State, Stored};
+use crate::failure::Failure;
+use crate::output::Output;
 
 /// A render that is stored: as a checkpoint, as a part of a picture, or as both.
 #[derive(Debug)]
@@ -55,6 +55,7 @@ impl Storage {
             samples_per_pixel: scene.sampling.samples_per_pixel,
             seconds: 0.0,
             configuration: String::new(),
+            whole: false,
         };
         let new = Self {
             keeper: None,
@@ -79,7 +80,7 @@ impl Storage {
         if self.header.shard.is_none() || !path.exists() {
             return Ok(self);
         }
-        let storage = self.continued(part(path)?, path, Kind::Part)?;
+        let storage = self.continued(Part::open(path)?.read()?, path, Kind::Part)?;
         let is_there = matches!(&storage.state, State::Plain(found) if found.is_whole());
         Ok(Self { is_there, ..storage })
     }
@@ -138,22 +139,6 @@ impl Storage {
     }
 }
 
-/// The stored render in a picture.
-///
-/// # Errors
-/// A picture that is no part of a render, or a damaged one.
-pub(crate) fn part(path: &Path) -> Result<Stored, Failure> {
-    let fail =
-        |message: &str| Failure::new(Exit::InputOutput, format!("{}: {message}", path.display()));
-    let bytes = read_part(path).ok_or_else(|| {
-        fail("not a part of a render, which `etendue render --shard` writes, or damaged")
-    })?;
-    Stored::from_bytes(&bytes).map_err(|complaint| fail(&complaint))
-}
-
-/// Most pixels of a part of a render: of 128 bytes each, twice what they usually take, its attribute has the 2 GiB that it may have.
-const MOST_OF_PART: u64 = 1 << 24;
-
 /// The state of a render of which nothing has been drawn.
 fn nothing(shard: Option<Shard>, scene: &Scene, task: &Task) -> Result<State, Failure> {
     let samples_per_pixel = scene.sampling.samples_per_pixel;
@@ -165,16 +150,6 @@ fn nothing(shard: Option<Shard>, scene: &Scene, task: &Task) -> Result<State, Fa
                     "--shard {shard} has none of the {samples_per_pixel} samples per pixel; \
                      divide them into {samples_per_pixel} parts at most"
                 )));
-            }
-            let pixels: u64 = scene.film.crop.size.iter().copied().map(u64::from).product();
-            if let Some(shard) = shard.filter(|_| pixels > MOST_OF_PART) {
-                return Err(Failure::new(
-                    Exit::Resource,
-                    format!(
-                        "--shard {shard} of {pixels} pixels does not fit into a picture, which has room for the sums of \
-                         {MOST_OF_PART}; render crops"
-                    ),
-                ));
             }
             Ok(State::Plain(Accumulation::new(scene.film.crop, samples)))
         }
