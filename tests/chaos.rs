@@ -155,26 +155,27 @@ fn a_signal_saves_picture_and_checkpoint_within_seconds_and_the_render_goes_on()
 }
 
 #[test]
-fn a_progressive_render_that_is_interrupted_goes_on_to_the_same_bits() {
-    let folder = Folder::new();
-    let adaptive = ["--allocation", "adaptive"];
-    let status = command(&folder, "200", &adaptive).status().expect("the command starts");
-    assert!(status.success());
-    let expected = Picture::read_pfm(&folder.path("a.pfm")).bits();
-    let target = format!("{CHECKPOINT}:20ms");
-    let kept = [&adaptive[..], &["--checkpoint", &target]].concat();
-    let mut child = command(&folder, "200", &kept).spawn().expect("the command starts");
-    wait_until(&mut child, || folder.path("a.checkpoint.previous").exists());
-    signal(&child, "-INT");
-    let outcome = Outcome::from(child.wait_with_output().expect("a child"));
-    assert_eq!(outcome.exit, Some(130), "{}", outcome.stderr);
-    let outcome = folder.run(&["resume", CHECKPOINT, "--quiet", "-o", "b.pfm"]);
-    assert_eq!(outcome.exit, Some(0), "{}", outcome.stderr);
-    assert!(Picture::read_pfm(&folder.path("b.pfm")).bits() == expected, "other bits");
-    assert!(
-        Picture::read_pfm(&folder.path("a.pfm")).bits() != expected,
-        "it was interrupted too late"
-    );
+fn renders_in_rounds_and_with_reuse_that_are_interrupted_go_on_to_the_same_bits() {
+    for how in [&["--allocation", "adaptive"][..], &["--reuse"]] {
+        let folder = Folder::new();
+        let status = command(&folder, "200", how).status().expect("the command starts");
+        assert!(status.success());
+        let expected = Picture::read_pfm(&folder.path("a.pfm")).bits();
+        let target = format!("{CHECKPOINT}:20ms");
+        let kept = [how, &["--checkpoint", &target]].concat();
+        let mut child = command(&folder, "200", &kept).spawn().expect("the command starts");
+        wait_until(&mut child, || folder.path("a.checkpoint.previous").exists());
+        signal(&child, "-INT");
+        let outcome = Outcome::from(child.wait_with_output().expect("a child"));
+        assert_eq!(outcome.exit, Some(130), "{}", outcome.stderr);
+        let outcome = folder.run(&["resume", CHECKPOINT, "--quiet", "-o", "b.pfm"]);
+        assert_eq!(outcome.exit, Some(0), "{}", outcome.stderr);
+        assert!(Picture::read_pfm(&folder.path("b.pfm")).bits() == expected, "{how:?}: other bits");
+        assert!(
+            Picture::read_pfm(&folder.path("a.pfm")).bits() != expected,
+            "{how:?}: it was interrupted too late"
+        );
+    }
 }
 
 #[test]

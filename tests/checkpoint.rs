@@ -61,6 +61,31 @@ fn a_progressive_render_goes_on_to_a_smaller_error_with_the_bits_of_one_that_was
 }
 
 #[test]
+fn a_render_with_reuse_knows_how_many_samples_there_were_to_be() {
+    let folder = Folder::new();
+    let scene = cornell_box();
+    let fixed = [&["render", &scene, "--reuse", "--spp", "16", "-o", "a.pfm"], &SIZE[..]].concat();
+    folder.succeed(&[&fixed[..], &["--quiet"]].concat());
+    let expected = picture(&folder, "a.pfm");
+    let kept = ["--checkpoint", "a.checkpoint", "--threads", "1", "--quiet"];
+    folder.succeed(&[&fixed[..], &kept].concat());
+    assert_eq!(picture(&folder, "a.pfm"), expected);
+    std::fs::remove_file(folder.path("a.pfm")).expect("it was written");
+    folder.succeed(&["resume", "a.checkpoint", "--quiet"]);
+    assert_eq!(picture(&folder, "a.pfm"), expected);
+    let more = ["resume", "a.checkpoint", "--spp", "32"];
+    folder.refuse(&more, 2, &["it was made with --spp 16, now it is 32"]);
+    let plain = ["render", &scene, "-o", "b.pfm", "--checkpoint", "a.checkpoint", "--quiet"];
+    folder.refuse(&[&plain[..], &SIZE].concat(), 2, &["--reuse"]);
+    // Paths through media do not share: the render is a plain one, and so is its checkpoint.
+    let medium = repository("scenes/effects/homogeneous-medium.xml");
+    let medium = medium.to_str().expect("UTF-8");
+    let fixed = ["render", medium, "--quiet", "--spp", "2", "-o", "m.pfm", "--reuse"];
+    folder.succeed(&[&fixed[..], &SIZE, &["--checkpoint", "m.checkpoint"]].concat());
+    folder.succeed(&["resume", "m.checkpoint", "--spp", "3", "--quiet"]);
+}
+
+#[test]
 fn samples_that_stand_for_less_of_a_texture_are_another_render() {
     let folder = Folder::new();
     let scene = repository("scenes/effects/texture-filtering.xml");

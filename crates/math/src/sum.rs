@@ -31,6 +31,12 @@ pub struct CompensatedSum<T> {
 }
 
 impl<T: Real> CompensatedSum<T> {
+    /// The sum of these [`total`](Self::total) and [`remainder`](Self::remainder), to go on with one that was stored: bit by bit the same.
+    #[inline]
+    pub fn from_parts(total: T, remainder: T) -> Self {
+        Self { high: total, low: remainder }
+    }
+
     /// Adds one term.
     #[inline]
     pub fn add(&mut self, x: T) {
@@ -60,6 +66,18 @@ impl<T: Real> CompensatedSum<T> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_stored_sum_goes_on_as_if_nothing_had_happened() {
+        let (mut whole, mut stopped) = (CompensatedSum::default(), CompensatedSum::default());
+        for i in 0..1000_u16 {
+            let x = f32::from(i) * 0.1 - 30.0;
+            whole.add(x);
+            stopped.add(x);
+            stopped = CompensatedSum::from_parts(stopped.total(), stopped.remainder());
+        }
+        assert_eq!(whole, stopped);
+    }
 
     #[test]
     fn a_million_tenths_make_a_hundred_thousand() {

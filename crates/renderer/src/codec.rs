@@ -67,6 +67,10 @@ impl<'b> Reader<'b> {
         self.array().map(u32::from_le_bytes)
     }
 
+    pub(crate) fn f32(&mut self) -> Result<f32, StateError> {
+        self.u32().map(f32::from_bits)
+    }
+
     pub(crate) fn u64(&mut self) -> Result<u64, StateError> {
         self.array().map(u64::from_le_bytes)
     }
@@ -82,6 +86,10 @@ pub(crate) trait Write {
     fn u8(&mut self, x: u8);
     fn u32(&mut self, x: u32);
     fn u64(&mut self, x: u64);
+
+    fn f32(&mut self, x: f32) {
+        self.u32(x.to_bits());
+    }
 }
 
 impl Write for Vec<u8> {

@@ -65,6 +65,7 @@ extern crate alloc;
 
 mod accumulation;
 mod bad_samples;
+mod canvas;
 mod codec;
 mod configuration;
 mod features;
@@ -90,6 +91,7 @@ pub use configuration::Configuration;
 pub use features::Features;
 pub use film::{FilmSample, FilterSampler, Image, PixelFilter, PixelSum};
 pub use light_sampler::{LightChoice, LightSampler, Receiver, Sides};
+pub use pilot::ReuseState;
 pub use render::{Progress, Renderer, Rendering};
 pub use renderer_error::RendererError;
 pub use replay::{Cut, Found, Replay, Step, TracedRay};

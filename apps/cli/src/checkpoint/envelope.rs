@@ -13,8 +13,8 @@
 use std::io::Read;
 use std::time::Duration;
 
-use etendue_renderer::Accumulation;
 use etendue_renderer::progressive::ProgressiveState;
+use etendue_renderer::{Accumulation, ReuseState};
 use serde::{Deserialize, Serialize};
 
 use super::identity::Identity;
@@ -82,6 +82,8 @@ pub(crate) enum State {
     Plain(Accumulation),
     /// A progressive render.
     Progressive(ProgressiveState),
+    /// A render with reuse.
+    Reuse(ReuseState),
 }
 
 /// A stored render.
@@ -103,17 +105,21 @@ impl State {
                 bytes.push(1);
                 state.encode(bytes);
             }
+            Self::Reuse(state) => {
+                bytes.push(2);
+                state.encode(bytes);
+            }
         }
     }
 
     fn decode(kind: u8, body: &[u8]) -> Result<Self, String> {
-        match kind {
-            0 => Accumulation::decode(body).map(Self::Plain).map_err(|error| error.to_string()),
-            1 => ProgressiveState::decode(body)
-                .map(Self::Progressive)
-                .map_err(|error| error.to_string()),
-            _ => Err("it holds a kind of render that this version does not know".to_owned()),
-        }
+        let state = match kind {
+            0 => Accumulation::decode(body).map(Self::Plain),
+            1 => ProgressiveState::decode(body).map(Self::Progressive),
+            2 => ReuseState::decode(body).map(Self::Reuse),
+            _ => return Err("it holds a kind of render that this version does not know".to_owned()),
+        };
+        state.map_err(|error| error.to_string())
     }
 }
 

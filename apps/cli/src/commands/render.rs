@@ -30,7 +30,7 @@ use defects::Defects;
 use draw::draw;
 use report::Report;
 use storage::Storage;
-use task::Task;
+use task::{Method, Task};
 
 /// Renders a scene to a picture.
 #[derive(Debug, clap::Args)]
@@ -62,7 +62,7 @@ pub(crate) struct Arguments {
     reuse: bool,
     /// Keep what has been drawn in this file, now and then (every 60s if not said otherwise) and at the end. The same command goes on with
     /// it, and so does `etendue resume FILE`, to the same picture bit by bit.
-    #[arg(long, value_name = "FILE[:INTERVAL]", value_parser = Target::parse, conflicts_with = "reuse")]
+    #[arg(long, value_name = "FILE[:INTERVAL]", value_parser = Target::parse)]
     checkpoint: Option<Target>,
     /// Draw only the I-th of N equal parts of the samples, into an EXR picture for `etendue merge`. A part that is there is not drawn
     /// again, an unfinished one is finished.
@@ -264,7 +264,8 @@ fn render(arguments: &Arguments, recipe: &Recipe) -> Result<Exit, Failure> {
         drawing.layers = of_part(sums);
     }
     drawing.layers.extend(of_bad_samples(&drawing.statistics, &scene.film.crop));
-    let defects = Defects::of(&drawing.statistics, &scene, &loaded.origins, arguments.reuse);
+    let defects =
+        Defects::of(&drawing.statistics, &scene, &loaded.origins, task.method == Method::Reuse);
     let report = Report { render_seconds, build_seconds, drawing: &drawing, defects: &defects };
     report.warn_of_bad_samples(scene.sampling.seed);
     report.warn_of_overflow();

@@ -3,6 +3,8 @@
 use etendue_math::{CompensatedSum, Spectrum};
 use etendue_scene::Color;
 
+use crate::codec::{Reader, StateError, Write as _};
+
 /// Compensated sum of a pixel's weighted samples.
 ///
 /// Compensation makes the mean of any number of samples correct to the last bit or so, where a
@@ -42,6 +44,28 @@ impl PixelSum {
             ((f64::from(s.total()) + f64::from(s.remainder())) * scale) as f32
         };
         self.channels.map(mean).into()
+    }
+}
+
+/// How a sum is stored.
+impl PixelSum {
+    /// Bytes of a sum.
+    pub(crate) const BYTES: u64 = 3 * 2 * 4 + 8;
+
+    pub(crate) fn write(&self, bytes: &mut Vec<u8>) {
+        for sum in self.channels {
+            bytes.f32(sum.total());
+            bytes.f32(sum.remainder());
+        }
+        bytes.u64(self.count);
+    }
+
+    pub(crate) fn read(reader: &mut Reader<'_>) -> Result<Self, StateError> {
+        let mut channels = [CompensatedSum::default(); 3];
+        for sum in &mut channels {
+            *sum = CompensatedSum::from_parts(reader.f32()?, reader.f32()?);
+        }
+        Ok(Self { channels, count: reader.u64()? })
     }
 }
 

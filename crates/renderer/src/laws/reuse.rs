@@ -1,6 +1,7 @@
 //! Paths that share what they find have the expectation of paths that do not.
 
-use core::sync::atomic::AtomicBool;
+use core::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::Mutex;
 
 use etendue_math::Real;
 use etendue_math::glam::DVec3;
@@ -9,7 +10,7 @@ use etendue_scene::{Color, Scene};
 
 use super::bias::{PIXELS, SIZE, Sums, assert_equal_means};
 use super::scenes::{Sketch, rectangle, settings, sphere};
-use crate::{RenderSettings, Renderer, Rendering, Strategy};
+use crate::{RenderSettings, Renderer, Rendering, ReuseState, Strategy};
 
 /// A corner of diffuse walls with a glass ball, a rough mirror, and a lamp that lights the floor from close by: joints behind
 /// delta and glossy surfaces, branches near their joints, and walls that hide them.
@@ -114,6 +115,57 @@ fn threads_and_seeds_as_everywhere() {
     // As many samples as were asked for, or somewhat less where they go where the error is.
     let wanted = 64 * PIXELS as u64;
     assert!((wanted * 7 / 10..=wanted).contains(&one.statistics.samples));
+}
+
+#[test]
+fn a_render_that_is_stopped_stored_and_continued_has_the_bits_of_one_that_is_not() {
+    let scene = corner([37, 20]);
+    let expected = reuse(&renderer(&scene, with_seed(1, 24)));
+    // Of both passes there are twelve tiles: stops lie within each, and between them.
+    for (threads, cancel_after) in [(1, 1), (2, 2), (3, 5), (1, 6), (7, 4)] {
+        let renderer = renderer(&scene, RenderSettings { threads, ..with_seed(1, 24) });
+        let mut work = ReuseState::new(scene.film.crop);
+        let mut stops = 0;
+        loop {
+            let (reports, cancel) = (AtomicUsize::new(0), AtomicBool::new(false));
+            let report = |_| {
+                if reports.fetch_add(1, Ordering::Relaxed) + 1 == cancel_after {
+                    cancel.store(true, Ordering::Relaxed);
+                }
+            };
+            let shared = Mutex::new(work);
+            renderer.continue_with_reuse(&shared, &report, &cancel);
+            let mut bytes = Vec::new();
+            shared.into_inner().expect("no panic").encode(&mut bytes);
+            work = ReuseState::decode(&bytes).expect("a render");
+            if !cancel.into_inner() {
+                break;
+            }
+            stops += 1;
+        }
+        assert!(stops >= 1, "{threads} threads stop {stops} times");
+        assert_eq!(work.rendering(), expected, "{threads} threads");
+    }
+}
+
+#[test]
+fn bytes_that_are_cut_short_anywhere_are_refused_and_changed_ones_do_no_harm() {
+    let scene = corner([3, 2]);
+    let renderer = renderer(&scene, with_seed(1, 8));
+    let work = Mutex::new(ReuseState::new(scene.film.crop));
+    renderer.continue_with_reuse(&work, &|_| (), &AtomicBool::new(false));
+    let mut bytes = Vec::new();
+    work.into_inner().expect("no panic").encode(&mut bytes);
+    for length in 0..bytes.len() {
+        assert!(ReuseState::decode(&bytes[..length]).is_err(), "{length}");
+    }
+    for place in 0..bytes.len() {
+        let before = core::mem::replace(&mut bytes[place], 0xff);
+        if let Ok(changed) = ReuseState::decode(&bytes) {
+            let _ = changed.rendering();
+        }
+        bytes[place] = before;
+    }
 }
 
 #[test]

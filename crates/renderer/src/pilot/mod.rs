@@ -29,21 +29,27 @@
 mod guide;
 mod pixel;
 mod plan;
+mod state;
+
+pub use state::ReuseState;
 
 use core::marker::PhantomData;
 use core::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use etendue_math::Spectrum;
 use etendue_sampling::{Independent, Sampler, Sobol};
+use etendue_scene::Scene;
 use etendue_scene::geometry::{Rays, Task};
 use etendue_scene::scene::SamplerKind;
 
 use crate::bad_samples::is_negative;
+use crate::canvas::{CanvasTile, index};
 use crate::configuration::Configuration;
-use crate::film::{Image, PixelFilter};
+use crate::film::PixelFilter;
 use crate::path::{LightSamples, MOST, SharedPath};
 use crate::render::{Progress, Renderer, Rendering};
+use crate::settings::RenderSettings;
 use crate::statistics::Statistics;
 use crate::tile::Tile;
 use guide::Guide;
@@ -67,119 +73,123 @@ impl Renderer<'_> {
         if !self.reuses_paths() {
             return self.render(report, cancel);
         }
+        let work = Mutex::new(ReuseState::new(self.scene.film.crop));
+        self.continue_with_reuse(&work, report, cancel);
+        work.into_inner().unwrap_or_else(PoisonError::into_inner).rendering()
+    }
+
+    /// Draws what is missing of a render with reuse, which is one of the film's crop, the same seed and the same number of samples. Of a
+    /// renderer that does not [reuse paths](Self::reuses_paths) nothing is drawn.
+    ///
+    /// `work` is locked for moments only, and whole at any time: another thread may copy it for storing, and after a panic all
+    /// tiles that were finished are in it. `report` and `cancel` are those of [`render_with_reuse`](Self::render_with_reuse).
+    pub fn continue_with_reuse(
+        &self,
+        work: &Mutex<ReuseState>,
+        report: &(dyn Fn(Progress) + Sync),
+        cancel: &AtomicBool,
+    ) {
+        if !self.reuses_paths() {
+            return;
+        }
+        let passes = Passes { renderer: self, work, report, cancel };
         match self.settings.sampler {
-            SamplerKind::Independent => self.with_pilot::<Independent>(report, cancel),
-            SamplerKind::Sobol => self.with_pilot::<Sobol>(report, cancel),
+            SamplerKind::Independent => passes.draw_all::<Independent>(),
+            SamplerKind::Sobol => passes.draw_all::<Sobol>(),
         }
     }
 
     /// Whether [`render_with_reuse`](Self::render_with_reuse) does anything else than [`render`](Self::render).
     pub fn reuses_paths(&self) -> bool {
-        self.configuration == Configuration::Surfaces
-            && !self.scene.has_motion()
-            && self.settings.path.roulette_depth > 0
-    }
-
-    fn with_pilot<S: Sampler>(
-        &self,
-        report: &(dyn Fn(Progress) + Sync),
-        cancel: &AtomicBool,
-    ) -> Rendering {
-        let crop = self.scene.film.crop;
-        let passes = Passes::new(self, report, cancel);
-        let mean = self.settings.samples_per_pixel;
-        let first = guide::pilot_samples(mean);
-        passes.draw::<S>(&|_| first, Plan::PILOT);
-        let pilots = passes.map(PilotPixel::pilot);
-        let counts = Guide::new(crop.size, &pilots).samples(first, mean);
-        let count = |[x, y]: [u32; 2]| {
-            let [column, row] = [x - crop.offset[0], y - crop.offset[1]];
-            counts[(row * crop.size[0] + column) as usize]
-        };
-        passes.draw::<S>(&count, Plan::of(&pilots, f64::from(mean) / f64::from(first)));
-        passes.rendering()
+        shares(self.configuration, self.scene, &self.settings)
     }
 }
 
-/// The pixels of one tile, row by row.
-struct Piece {
-    tile: Tile,
-    pixels: Mutex<Vec<PilotPixel>>,
-}
-
-impl Piece {
-    fn new(tile: Tile) -> Self {
-        let count = tile.size[0] as usize * tile.size[1] as usize;
-        Self { tile, pixels: Mutex::new(vec![PilotPixel::default(); count]) }
+impl RenderSettings {
+    /// Whether a renderer of these settings [reuses paths](Renderer::reuses_paths) of a scene.
+    pub fn reuses_paths(&self, scene: &Scene) -> bool {
+        shares(Configuration::of(scene, self), scene, self)
     }
 }
 
-/// A render under way.
+fn shares(configuration: Configuration, scene: &Scene, settings: &RenderSettings) -> bool {
+    configuration == Configuration::Surfaces
+        && !scene.has_motion()
+        && settings.path.roulette_depth > 0
+}
+
+/// The two passes of a render.
 struct Passes<'r, 'a> {
     renderer: &'r Renderer<'a>,
+    work: &'r Mutex<ReuseState>,
     report: &'r (dyn Fn(Progress) + Sync),
     cancel: &'r AtomicBool,
-    pieces: Vec<Piece>,
-    done: Mutex<(Statistics, Progress)>,
 }
 
-impl<'r, 'a> Passes<'r, 'a> {
-    fn new(
-        renderer: &'r Renderer<'a>,
-        report: &'r (dyn Fn(Progress) + Sync),
-        cancel: &'r AtomicBool,
-    ) -> Self {
-        let tiles = Tile::cover(&renderer.scene.film.crop);
-        let pieces: Vec<Piece> = tiles.into_iter().map(Piece::new).collect();
-        let progress = Progress { finished: 0, total: 2 * pieces.len() };
-        let done = Mutex::new((Statistics::default(), progress));
-        Self { renderer, report, cancel, pieces, done }
+impl Passes<'_, '_> {
+    fn lock(&self) -> MutexGuard<'_, ReuseState> {
+        // A lock is poisoned by a panic outside of it, such as of a report.
+        self.work.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn cancelled(&self) -> bool {
+        self.cancel.load(Ordering::Relaxed)
+    }
+
+    fn draw_all<S: Sampler>(&self) {
+        let crop = self.renderer.scene.film.crop;
+        let mean = self.renderer.settings.samples_per_pixel;
+        let first = guide::pilot_samples(mean);
+        self.draw::<S>(0, &|_| first, Plan::PILOT);
+        if self.cancelled() {
+            return;
+        }
+        // Of all pilots, those of pixels that are finished included.
+        let pilots = self.lock().canvas.map(PilotPixel::pilot);
+        let counts = Guide::new(crop.size, &pilots).samples(first, mean);
+        let count = |pixel| counts[index(&crop, pixel)];
+        self.draw::<S>(1, &count, Plan::of(&pilots, f64::from(mean) / f64::from(first)));
     }
 
     /// Brings every pixel to its number of samples.
-    fn draw<S: Sampler>(&self, wanted: &(dyn Fn([u32; 2]) -> u32 + Sync), plan: Plan) {
-        let cancelled = || self.cancel.load(Ordering::Relaxed);
-        self.renderer.share_out(&self.pieces, &cancelled, |piece: &Piece| {
-            // A lock is poisoned by a panic outside of it, such as of a report.
-            let mut pixels = piece.pixels.lock().unwrap_or_else(PoisonError::into_inner);
+    ///
+    /// * `before`: passes that are finished.
+    fn draw<S: Sampler>(
+        &self,
+        before: usize,
+        wanted: &(dyn Fn([u32; 2]) -> u32 + Sync),
+        plan: Plan,
+    ) {
+        let all = Tile::cover(&self.renderer.scene.film.crop);
+        let mut work = self.lock();
+        let is_missing = |&(index, tile): &(usize, Tile)| {
+            let found = work.canvas.tile(index);
+            let mut pixels = tile.pixels().zip(&found.pixels);
+            pixels.any(|(pixel, state)| state.drawn() < wanted(pixel))
+        };
+        let total = all.len();
+        let missing: Vec<(usize, Tile)> = all.into_iter().enumerate().filter(is_missing).collect();
+        work.finished = (before + 1) * total - missing.len();
+        drop(work);
+        self.renderer.share_out(&missing, &|| self.cancelled(), |&(index, tile)| {
+            let before = self.lock().canvas.tile(index);
+            let mut after = CanvasTile::clone(&before);
             let task = ExtendTile::<S> {
                 renderer: self.renderer,
-                tile: piece.tile,
-                pixels: &mut pixels,
+                tile,
+                pixels: &mut after.pixels,
                 wanted,
                 plan,
                 sampler: PhantomData,
             };
-            let statistics = self.renderer.scene.geometry.run(task);
-            let mut done = self.done.lock().unwrap_or_else(PoisonError::into_inner);
-            done.0.merge(&statistics);
-            done.1.finished += 1;
-            let progress = done.1;
-            drop(done);
+            after.statistics.merge(&self.renderer.scene.geometry.run(task));
+            let mut work = self.lock();
+            work.canvas.replace(index, after);
+            work.finished += 1;
+            let progress = work.progress();
+            drop(work);
             (self.report)(progress);
         });
-    }
-
-    /// What a function says of every pixel, row by row.
-    fn map<A: Clone + Default>(&self, f: impl Fn(&PilotPixel) -> A) -> Vec<A> {
-        let crop = &self.renderer.scene.film.crop;
-        let mut plane = vec![A::default(); crop.size.map(|n| n as usize).iter().product()];
-        for piece in &self.pieces {
-            let pixels = piece.pixels.lock().unwrap_or_else(PoisonError::into_inner);
-            for ([x, y], pixel) in piece.tile.pixels().zip(pixels.iter()) {
-                let [column, row] = [x - crop.offset[0], y - crop.offset[1]];
-                plane[(row * crop.size[0] + column) as usize] = f(pixel);
-            }
-        }
-        plane
-    }
-
-    fn rendering(self) -> Rendering {
-        let size = self.renderer.scene.film.crop.size;
-        let pixels = self.map(PilotPixel::mean);
-        let image = Image::from_pixels(size, pixels).unwrap_or_else(|| Image::black(size));
-        let (statistics, progress) = self.done.into_inner().unwrap_or_else(PoisonError::into_inner);
-        Rendering { image, statistics, progress }
     }
 }
 

@@ -3,6 +3,8 @@
 use etendue_math::Spectrum;
 use etendue_scene::Color;
 
+use crate::canvas::CanvasPixel;
+use crate::codec::{Reader, StateError, Write as _};
 use crate::film::PixelSum;
 
 /// Runs of consecutive samples whose means are compared.
@@ -62,7 +64,7 @@ pub(super) struct Find {
 }
 
 /// The sum of a pixel's samples so far, and what the first ones say.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct PilotPixel {
     sum: PixelSum,
     drawn: u32,
@@ -88,6 +90,40 @@ impl PilotPixel {
     pub(super) fn extend(self, end: u32) -> Extension {
         let runs = (self.drawn == 0).then(|| Runs::of(end));
         Extension { end: end.max(self.drawn), pixel: self, runs }
+    }
+}
+
+impl Pilot {
+    /// Its numbers, in the order in which they are stored.
+    fn numbers(&mut self) -> impl Iterator<Item = &mut f32> {
+        let Self { mean, variance, first, own, lent, alone, rays } = self;
+        let colors = [mean, variance].into_iter().flat_map(|c| [&mut c.r, &mut c.g, &mut c.b]);
+        let spreads =
+            [first, own, lent, alone].into_iter().flat_map(|s| [&mut s.of_all, &mut s.of_half]);
+        colors.chain(spreads).chain(rays)
+    }
+}
+
+impl CanvasPixel for PilotPixel {
+    const BYTES: u64 = PixelSum::BYTES + 4 + 4 * (2 * 3 + 4 * 2 + 3);
+
+    fn write(&self, bytes: &mut Vec<u8>) {
+        self.sum.write(bytes);
+        bytes.u32(self.drawn);
+        let mut pilot = self.pilot;
+        pilot.numbers().for_each(|number| bytes.f32(*number));
+    }
+
+    fn read(reader: &mut Reader<'_>) -> Result<Self, StateError> {
+        let (sum, drawn) = (PixelSum::read(reader)?, reader.u32()?);
+        if sum.count() > u64::from(drawn) {
+            return Err(StateError::new("a pixel has more samples than were drawn"));
+        }
+        let mut pilot = Pilot::default();
+        for number in pilot.numbers() {
+            *number = reader.f32()?;
+        }
+        Ok(Self { sum, drawn, pilot })
     }
 }
 
@@ -267,6 +303,18 @@ mod tests {
         extended(&mut pixel, &[8.0, f32::NAN]);
         assert_eq!((pixel.drawn(), pixel.mean()), (10, Color::splat(4.0)));
         assert_eq!(pixel.pilot().mean, pilot.mean);
+    }
+
+    #[test]
+    fn a_stored_pixel_comes_back_and_takes_as_many_bytes_as_is_said() {
+        let mut pixel = PilotPixel::default();
+        extended(&mut pixel, &[1.0, 3.0, 2.0, 4.0, 3.0, 5.0, 0.1, 6.0]);
+        let mut bytes = Vec::new();
+        pixel.write(&mut bytes);
+        assert_eq!(bytes.len() as u64, PilotPixel::BYTES);
+        assert_eq!(PilotPixel::read(&mut Reader::new(&bytes)), Ok(pixel));
+        bytes[24] = 9; // samples that count, of 8
+        assert!(PilotPixel::read(&mut Reader::new(&bytes)).is_err());
     }
 
     #[test]

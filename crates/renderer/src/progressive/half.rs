@@ -82,19 +82,19 @@ impl Half {
 
     pub(super) fn write(&self, bytes: &mut Vec<u8>) {
         for channel in self.mean.to_array() {
-            bytes.u32(channel.to_bits());
+            bytes.f32(channel);
         }
         bytes.u32(self.count);
         bytes.u32(self.drawn);
         for difference in self.differences {
-            bytes.u32(difference.to_bits());
+            bytes.f32(difference);
         }
     }
 
     pub(super) fn read(reader: &mut Reader<'_>) -> Result<Self, StateError> {
         let mut mean = [0.0; 3];
         for channel in &mut mean {
-            *channel = f32::from_bits(reader.u32()?);
+            *channel = reader.f32()?;
         }
         let (count, drawn) = (reader.u32()?, reader.u32()?);
         if count > drawn || drawn > 1 << HIGHEST || drawn.count_ones() > 1 {
@@ -102,7 +102,7 @@ impl Half {
         }
         let mut differences = [0.0; KEPT];
         for difference in &mut differences {
-            *difference = f32::from_bits(reader.u32()?);
+            *difference = reader.f32()?;
         }
         Ok(Self { mean: mean.into(), count, drawn, differences })
     }

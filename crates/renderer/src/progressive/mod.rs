@@ -35,10 +35,10 @@
 //! About 110 bytes per pixel while rendering.
 
 mod allocation;
-mod canvas;
 mod convergence;
 mod goal;
 mod half;
+mod halves;
 mod image_error;
 mod rounds;
 mod schedule;

@@ -9,13 +9,13 @@ use etendue_scene::film::Crop;
 use etendue_scene::geometry::{Rays, Task};
 
 use super::allocation::{dither, levels, merits};
-use super::canvas::{self, CanvasTile};
 use super::convergence::Round;
 use super::goal::{Goal, Halt};
 use super::half::Half;
 use super::image_error::ImageError;
 use super::schedule::{Schedule, Stage, UNIFORM};
 use super::state::ProgressiveState;
+use crate::canvas::{CanvasTile, index};
 use crate::configuration::Configured;
 use crate::film::{Image, PixelSum};
 use crate::path::Transport;
@@ -270,13 +270,13 @@ impl<S: Sampler, T: Transport> Task for ExtendTile<'_, '_, '_, S, T> {
         let tracer = renderer.tracer::<T::Channels, R>(rays);
         let mut statistics = Statistics::default();
         for (pixel, halves) in self.tile.pixels().zip(self.halves) {
-            let index = canvas::index(self.crop, pixel);
+            let place = index(self.crop, pixel);
             if (self.halted)() {
                 break;
             }
             let filter = renderer.filter.pixel(pixel);
             for (half, first) in [0, SECOND_HALF].into_iter().enumerate() {
-                let wanted = 1_u32 << self.levels[half][index];
+                let wanted = 1_u32 << self.levels[half][place];
                 while halves[half].drawn() < wanted {
                     let mut block = PixelSum::default();
                     for sample in halves[half].next_block() {

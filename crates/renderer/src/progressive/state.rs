@@ -4,13 +4,14 @@ use alloc::sync::Arc;
 
 use etendue_scene::film::Crop;
 
-use super::canvas::{self, Canvas};
 use super::convergence::Round;
 use super::goal::Allocation;
 use super::half::Half;
+use super::halves::{halves, mean, variance};
 use super::image_error::ImageError;
 use super::rounds::ProgressiveRendering;
 use super::schedule::{HIGHEST, Stage};
+use crate::canvas::{Canvas, CanvasPixel as _, read_crop, write_crop};
 use crate::codec::{Reader, StateError, Write as _};
 
 /// A progressive render under way: the halves of all pixels, and how far the present round is.
@@ -35,7 +36,7 @@ use crate::codec::{Reader, StateError, Write as _};
 #[derive(Clone, Debug, PartialEq)]
 pub struct ProgressiveState {
     pub(super) allocation: Allocation,
-    pub(super) canvas: Canvas,
+    pub(super) canvas: Canvas<[Half; 2]>,
     /// Level that each half of each pixel has or is being brought to.
     pub(super) levels: Arc<[Vec<u8>; 2]>,
     /// How many rounds have begun, and the last of them.
@@ -47,7 +48,7 @@ pub struct ProgressiveState {
 }
 
 /// Bytes of a stored pixel: two levels and two halves.
-const PIXEL: u64 = 2 + 2 * Half::BYTES;
+const PIXEL: u64 = 2 + <[Half; 2]>::BYTES;
 
 impl ProgressiveState {
     /// No samples yet.
@@ -76,11 +77,11 @@ impl ProgressiveState {
 
     /// The picture as it is now.
     pub fn rendering(&self) -> ProgressiveRendering {
-        let halves = self.canvas.halves();
+        let halves = halves(&self.canvas);
         ProgressiveRendering {
-            image: canvas::mean(&halves),
-            variance: canvas::variance(&halves),
-            samples: self.canvas.samples(),
+            image: mean(&halves),
+            variance: variance(&halves),
+            samples: self.canvas.map(|halves| halves.iter().map(Half::drawn).sum()),
             error: self.error(),
             rounds: self.finished.clone(),
             statistics: self.canvas.statistics(),
@@ -90,7 +91,7 @@ impl ProgressiveState {
     /// The error of the picture; `None` where some pixel has less than a sample in either half.
     pub(super) fn error(&self) -> Option<ImageError> {
         let whole = self.canvas.map(|halves| halves.iter().all(|half| half.drawn() > 0));
-        let [a, b] = self.canvas.halves();
+        let [a, b] = halves(&self.canvas);
         whole.into_iter().all(|whole| whole).then(|| ImageError::between(&a, &b))
     }
 
@@ -101,10 +102,7 @@ impl ProgressiveState {
 
     /// Adds the bytes that [`decode`](Self::decode) reads. They carry no checksum and no version; whoever stores them adds both.
     pub fn encode(&self, bytes: &mut Vec<u8>) {
-        let Crop { offset, size } = self.canvas.crop();
-        for number in [offset, size].as_flattened() {
-            bytes.u32(*number);
-        }
+        write_crop(&self.canvas.crop(), bytes);
         bytes.u8(u8::from(self.allocation == Allocation::Uniform));
         bytes.u32(self.begun);
         bytes.u8(u8::from(self.is_finished));
@@ -131,17 +129,8 @@ impl ProgressiveState {
     /// Any other bytes that do not happen to be a render. Memory is in proportion to their number, whatever they declare.
     pub fn decode(bytes: &[u8]) -> Result<Self, StateError> {
         let mut reader = Reader::new(bytes);
-        let [mut offset, mut size] = [[0; 2]; 2];
-        for number in [&mut offset, &mut size].into_iter().flatten() {
-            *number = reader.u32()?;
-        }
-        let pixels = u64::from(size[0]) * u64::from(size[1]);
-        if (0..2).any(|axis| offset[axis].checked_add(size[axis]).is_none()) {
-            return Err(StateError::new("its part of the film cannot be"));
-        }
-        if pixels.saturating_mul(PIXEL) > reader.left() as u64 {
-            return Err(StateError::new("it is cut short"));
-        }
+        let crop = read_crop(&mut reader, PIXEL)?;
+        let pixels = crop.size.map(|n| n as usize).iter().product();
         let allocation = if reader.bool()? { Allocation::Uniform } else { Allocation::Adaptive };
         let begun = reader.u32()?;
         let is_finished = reader.bool()?;
@@ -159,14 +148,14 @@ impl ProgressiveState {
             finished.push(Round { samples_per_pixel, error });
         }
         let mut levels = || -> Result<Vec<u8>, StateError> {
-            let levels = reader.bytes(pixels as usize)?;
+            let levels = reader.bytes(pixels)?;
             if levels.iter().any(|&level| u32::from(level) > HIGHEST) {
                 return Err(StateError::new("a pixel has more samples than there are"));
             }
             Ok(levels.to_vec())
         };
         let levels = Arc::new([levels()?, levels()?]);
-        let canvas = Canvas::read(Crop { offset, size }, &mut reader)?;
+        let canvas = Canvas::read(crop, &mut reader)?;
         reader.end()?;
         Ok(Self { allocation, canvas, levels, begun, last, is_finished, finished })
     }

@@ -7,7 +7,10 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use etendue_renderer::progressive::{Advance, Goal, Halt, ImageError, ProgressiveState, Round};
-use etendue_renderer::{Accumulation, Configuration, Image, RenderSettings, Renderer, Statistics};
+use etendue_renderer::{
+    Accumulation, Configuration, Image, Progress, RenderSettings, Renderer, Rendering, ReuseState,
+    Statistics,
+};
 use etendue_scene::Scene;
 
 use super::storage::Storage;
@@ -99,8 +102,16 @@ pub(super) fn draw(
             let drawing = accumulated(&renderer, sums, kept, interrupt, &progress);
             (drawing, Image::black([0, 0]), Vec::new())
         }
-        (method, _) => {
-            let drawing = plain(&renderer, method, interrupt, &progress);
+        (Method::Reuse, state) => {
+            let state = match state {
+                Some(State::Reuse(state)) => state,
+                _ => ReuseState::new(scene.film.crop),
+            };
+            let drawing = reused(&renderer, state, kept, interrupt, &progress);
+            (drawing, Image::black([0, 0]), Vec::new())
+        }
+        (Method::Plain, _) => {
+            let drawing = plain(&renderer, interrupt, &progress);
             (drawing, Image::black([0, 0]), Vec::new())
         }
     };
@@ -140,33 +151,57 @@ fn copy<T: Clone>(shared: &Mutex<T>) -> T {
 }
 
 /// A picture without an estimate of its error.
-fn plain(
+fn plain(renderer: &Renderer<'_>, interrupt: &Interrupt, progress: &ProgressDisplay) -> Drawing {
+    let rendering = Mutex::new(renderer.nothing_rendered());
+    let outcome = catch_unwind(AssertUnwindSafe(|| {
+        renderer.render_onto(&rendering, &|now| progress.update(of_tiles(now)), interrupt.flag());
+    }));
+    let rendering = rendering.into_inner().unwrap_or_else(PoisonError::into_inner);
+    let whole = if is_finished(rendering.progress) { Whole::Yes } else { Whole::BlackInParts };
+    of_rendering(rendering, renderer, whole, (outcome, Ok(())))
+}
+
+/// A picture of paths that share what they find, that goes on from what there is.
+fn reused(
     renderer: &Renderer<'_>,
-    method: Method,
+    state: ReuseState,
+    kept: Kept,
     interrupt: &Interrupt,
     progress: &ProgressDisplay,
 ) -> Drawing {
-    let report = |now: etendue_renderer::Progress| {
-        progress.update(Standing::parts(now.finished, now.total));
-    };
-    let rendering = Mutex::new(renderer.nothing_rendered());
-    let outcome = catch_unwind(AssertUnwindSafe(|| match method {
-        Method::Reuse => {
-            let shared = renderer.render_with_reuse(&report, interrupt.flag());
-            *rendering.lock().unwrap_or_else(PoisonError::into_inner) = shared;
-        }
-        _ => renderer.render_onto(&rendering, &report, interrupt.flag()),
-    }));
-    let rendering = rendering.into_inner().unwrap_or_else(PoisonError::into_inner);
-    let etendue_renderer::Progress { finished, total } = rendering.progress;
-    let whole = if finished == total {
+    let work = Mutex::new(state);
+    let outcome = kept.work(&|| State::Reuse(copy(&work)), || {
+        let report = |now| progress.update(of_tiles(now));
+        renderer.continue_with_reuse(&work, &report, interrupt.flag());
+    });
+    let rendering = copy(&work).rendering();
+    let Progress { finished, total } = rendering.progress;
+    let whole = if is_finished(rendering.progress) {
         Whole::Yes
-    } else if method == Method::Reuse && renderer.reuses_paths() && 2 * finished >= total {
+    } else if 2 * finished >= total {
         // The pilot has been everywhere.
         Whole::WithFewerSamples
     } else {
         Whole::BlackInParts
     };
+    of_rendering(rendering, renderer, whole, outcome)
+}
+
+fn of_tiles(Progress { finished, total }: Progress) -> Standing {
+    Standing::parts(finished, total)
+}
+
+fn is_finished(Progress { finished, total }: Progress) -> bool {
+    finished == total
+}
+
+/// * `outcome`: of the work, and of its last checkpoint.
+fn of_rendering(
+    rendering: Rendering,
+    renderer: &Renderer<'_>,
+    whole: Whole,
+    (outcome, saved): (thread::Result<()>, Result<(), Failure>),
+) -> Drawing {
     Drawing {
         image: rendering.image,
         layers: Vec::new(),
@@ -176,7 +211,7 @@ fn plain(
         processor_seconds: None,
         accuracy: None,
         sums: None,
-        trouble: None,
+        trouble: saved.err(),
         panic: outcome.err(),
     }
 }

@@ -43,8 +43,14 @@ pub(super) fn settings(arguments: &Arguments, scene: &Scene, task: &Task) -> Vec
         let names: Vec<&str> = left_out.iter().map(|effect| effect.name()).collect();
         settings.push(("--without", names.join(",")));
     }
-    if scene.effects().iter().any(|presence| presence.effect == Effect::TextureFiltering) {
-        // A sample stands for less of a texture the more there are.
+    let reuses = task.method == Method::Reuse;
+    if reuses {
+        settings.push(("--reuse", "on".to_owned()));
+    }
+    let filters =
+        scene.effects().iter().any(|presence| presence.effect == Effect::TextureFiltering);
+    if reuses || filters {
+        // The pilot knows how many samples there will be; a sample stands for less of a texture the more there are.
         settings.push(("--spp", scene.sampling.samples_per_pixel.to_string()));
     }
     let named = settings.into_iter().map(|(name, value)| (name.to_owned(), value));

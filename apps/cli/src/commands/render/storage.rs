@@ -2,8 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use etendue_renderer::Accumulation;
 use etendue_renderer::progressive::ProgressiveState;
+use etendue_renderer::{Accumulation, ReuseState};
 use etendue_scene::Scene;
 
 use super::Arguments;
@@ -132,6 +132,9 @@ impl Storage {
             {
                 State::Progressive(found)
             }
+            (State::Reuse(found), State::Reuse(asked)) if found.crop() == asked.crop() => {
+                State::Reuse(found)
+            }
             _ => return Err(refuse("it holds another kind of render")),
         };
         let header = Header { seconds: stored.header.seconds, ..self.header };
@@ -160,8 +163,6 @@ fn nothing(shard: Option<Shard>, scene: &Scene, task: &Task) -> Result<State, Fa
         Method::Progressive { goal, .. } => {
             Ok(State::Progressive(ProgressiveState::new(scene.film.crop, goal.allocation)))
         }
-        Method::Reuse => {
-            Err(Failure::usage("--reuse has no checkpoints and shards; leave it or them out"))
-        }
+        Method::Reuse => Ok(State::Reuse(ReuseState::new(scene.film.crop))),
     }
 }

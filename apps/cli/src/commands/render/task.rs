@@ -2,6 +2,7 @@
 
 use std::time::Duration;
 
+use etendue_renderer::RenderSettings;
 use etendue_renderer::progressive::{Allocation, Goal};
 use etendue_scene::Scene;
 
@@ -60,7 +61,11 @@ impl Task {
                      leave it or them out",
                 ));
             }
-            Method::Reuse
+            if RenderSettings::of_scene(scene).reuses_paths(scene) {
+                Method::Reuse
+            } else {
+                Method::Plain
+            }
         } else if open_ended || halves || arguments.allocation.is_some() {
             if limit == Some(1) {
                 return Err(Failure::usage(
