@@ -276,7 +276,6 @@ fn what_cannot_be_kept_is_refused_before_rendering() {
     let with = |more: &[&'static str]| [&fixed[..], more].concat();
     folder.refuse(&with(&["missing/a.checkpoint"]), 4, &["missing", "is not a folder"]);
     folder.refuse(&with(&[".."]), 2, &["expected FILE"]);
-    folder.refuse(&with(&["a.checkpoint", "--reuse"]), 2, &["--reuse", "--checkpoint"]);
     assert_eq!(folder.names(), ["scene.xml"]);
 }
 

@@ -46,9 +46,12 @@ impl<'a> Defects<'a> {
         origins: &Origins,
         shared: bool,
     ) -> Self {
+        let much_is_cut = statistics.rays.cut_share(statistics.samples) > LITTLE;
+        let bad = statistics.non_finite.count() + statistics.negative.count();
         // One thread for one sample.
         let settings = RenderSettings { threads: 1, ..RenderSettings::of_scene(scene) };
-        let renderer = Renderer::new(scene, settings).ok();
+        let renderer =
+            (much_is_cut || bad > 0).then(|| Renderer::new(scene, settings).ok()).flatten();
         let told = |address: &SampleAddress| {
             let renderer = renderer.as_ref().filter(|_| !shared)?;
             let replay = renderer.replay([address.column, address.row], address.sample);
@@ -61,7 +64,6 @@ impl<'a> Defects<'a> {
             let some = samples.some().into_iter().map(|address| (address, source(&address)));
             Defect { samples, some: some.collect() }
         };
-        let much_is_cut = statistics.rays.cut_share(statistics.samples) > LITTLE;
         let cut = renderer.as_ref().filter(|_| much_is_cut).map(|renderer| {
             let found = addresses(scene).filter_map(|(pixel, sample)| {
                 let cut = renderer.cut(pixel, sample)?;

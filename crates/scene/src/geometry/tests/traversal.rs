@@ -67,11 +67,13 @@ fn brute_force(mesh: &TriangleMesh, ray: &Ray) -> Option<Hit> {
 #[test]
 fn every_backend_finds_the_closest_triangle_of_a_soup() {
     let mut random = Random(1);
-    let mesh = soup(&mut random, 700);
+    // An interpreter gets few of both.
+    let (triangles, degenerate, rays) = if cfg!(miri) { (50, 1, 60) } else { (700, 14, 4000) };
+    let mesh = soup(&mut random, triangles);
     let mut geometry = geometry([Shape::Mesh(mesh.clone())]);
-    assert_eq!(geometry.statistics().degenerate_triangles, 14);
+    assert_eq!(geometry.statistics().degenerate_triangles, degenerate);
     let mut hits = 0;
-    for _ in 0..4000 {
+    for _ in 0..rays {
         let ray = random_ray(&mut random);
         let want = brute_force(&mesh, &ray);
         hits += usize::from(want.is_some());
@@ -83,7 +85,7 @@ fn every_backend_finds_the_closest_triangle_of_a_soup() {
             assert_eq!(geometry.occluded(&ray), want.is_some(), "{backend:?} {ray:?}");
         }
     }
-    assert!(hits > 500, "only {hits} hits: the test tests nothing");
+    assert!(8 * hits > rays, "only {hits} hits: the test tests nothing");
 }
 
 #[test]
