@@ -105,6 +105,39 @@ fn a_damaged_part_is_found_out() {
 }
 
 #[test]
+fn a_part_whose_header_says_what_cannot_be_is_refused() {
+    let folder = Folder::new();
+    draw_parts(&folder, BOX, 2, &[]);
+    let bytes = std::fs::read(folder.path("1-2.exr")).expect("the part");
+    let lie = |from: &str, to: &str| {
+        let place = bytes.windows(from.len()).position(|window| window == from.as_bytes());
+        let place = place.expect("it is in the header");
+        let mut changed = bytes.clone();
+        changed[place..place + from.len()].copy_from_slice(to.as_bytes());
+        folder.write("lie.exr", changed);
+    };
+    let merge = ["merge", "-o", "a.pfm", "lie.exr", "2-2.exr"];
+    let shard = "\"shard\":{\"index\":1,\"count\":2}";
+    for (to, exit, says) in [
+        ("\"shard\":{\"index\":0,\"count\":2}", 4, "there is no part 0/2"),
+        ("\"shard\":{\"index\":1,\"count\":0}", 4, "there is no part 1/0"),
+        ("\"shard\":{\"index\":2,\"count\":2}", 2, "overlaps"),
+        ("\"shard\":{\"index\":1,\"count\":3}", 2, "missing: the samples 4 to 6"),
+        ("\"shard\":{\"index\":1}          ", 4, "its header"),
+    ] {
+        lie(shard, to);
+        folder.refuse(&merge, exit, &[says]);
+    }
+    lie("\"whole\":true", "\"whole\":null");
+    folder.refuse(&merge, 4, &["lie.exr", "its header"]);
+    lie("\"samples_per_pixel\":14", "\"samples_per_pixel\":0 ");
+    folder.refuse(&merge, 2, &["lie.exr", "no samples"]);
+    // A picture that says nothing of a part.
+    lie("etendue.part", "etendue.porp");
+    folder.refuse(&merge, 4, &["lie.exr", "not a part"]);
+}
+
+#[test]
 fn a_part_that_is_there_is_not_drawn_again_and_another_one_is_not_replaced() {
     let folder = Folder::new();
     let shard = ["--shard", "1/2", "-o", "a.exr"];

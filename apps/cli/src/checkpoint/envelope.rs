@@ -71,7 +71,12 @@ impl Header {
     }
 
     fn parse(bytes: &[u8]) -> Result<Self, String> {
-        serde_json::from_slice(bytes).map_err(|error| format!("its header: {error}"))
+        let header: Self =
+            serde_json::from_slice(bytes).map_err(|error| format!("its header: {error}"))?;
+        match header.shard.filter(|shard| !shard.exists()) {
+            Some(shard) => Err(format!("its header: there is no part {shard}")),
+            None => Ok(header),
+        }
     }
 }
 

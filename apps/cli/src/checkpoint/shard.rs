@@ -19,12 +19,17 @@ impl Shard {
             Some(Self { index: index.parse().ok()?, count: count.parse().ok()? })
         });
         match numbers {
-            Some(shard) if (1..=shard.count).contains(&shard.index) => Ok(shard),
+            Some(shard) if shard.exists() => Ok(shard),
             _ => Err("expected I/N with I from 1 to N, as in 2/8".to_owned()),
         }
     }
 
-    /// The samples of the part: neighbouring ranges of the one sequence, whose lengths differ by one at most.
+    /// Whether there is such a part.
+    pub(crate) fn exists(self) -> bool {
+        (1..=self.count).contains(&self.index)
+    }
+
+    /// The samples of the part, one that [exists](Self::exists): neighbouring ranges of the one sequence, whose lengths differ by one at most.
     pub(crate) fn samples(self, samples_per_pixel: u32) -> Range<u32> {
         let begin = |index: u32| {
             (u64::from(index) * u64::from(samples_per_pixel) / u64::from(self.count)) as u32

@@ -39,6 +39,9 @@ impl Part {
 
     /// That it is whole, and of the same render as another.
     fn check(&self, first: &Self) -> Result<(), Failure> {
+        if self.samples().is_empty() {
+            return Err(self.refuse("the part has no samples"));
+        }
         if !self.header.whole {
             return Err(self.refuse("the part is not whole; the command that drew it finishes it"));
         }
@@ -147,9 +150,15 @@ fn check_ranges(parts: &[Part]) -> Result<(), Failure> {
     Err(Failure::usage(format!("parts of the render are missing: {}", missing.join(", "))))
 }
 
+/// Most parts of a division that are looked for by name.
+const MOST_PARTS: u32 = 1 << 16;
+
+/// Most parts that are named.
+const MOST_NAMED: usize = 16;
+
 /// What a range of samples is called: by the parts that make it up where the division is known, by its numbers otherwise.
 fn missing_parts(range: &Range<u32>, samples_per_pixel: u32, shard: Option<Shard>) -> String {
-    let count = shard.map_or(1, |shard| shard.count);
+    let count = shard.map_or(1, |shard| shard.count.min(MOST_PARTS));
     let shards: Vec<Shard> = (1..=count)
         .map(|index| Shard { index, count })
         .filter(|shard| {
@@ -159,12 +168,16 @@ fn missing_parts(range: &Range<u32>, samples_per_pixel: u32, shard: Option<Shard
         .collect();
     let covered = shards.first().map(|s| s.samples(samples_per_pixel).start) == Some(range.start)
         && shards.last().map(|s| s.samples(samples_per_pixel).end) == Some(range.end);
-    if covered {
-        let names: Vec<String> = shards.iter().map(|shard| format!("--shard {shard}")).collect();
-        names.join(", ")
-    } else {
-        format!("the samples {}", named(range))
+    if !covered || shard.is_some_and(|shard| shard.count > count) {
+        return format!("the samples {}", named(range));
     }
+    let names: Vec<String> =
+        shards.iter().take(MOST_NAMED).map(|shard| format!("--shard {shard}")).collect();
+    let more = match shards.len().checked_sub(MOST_NAMED) {
+        None | Some(0) => String::new(),
+        Some(more) => format!(" and {more} more"),
+    };
+    names.join(", ") + &more
 }
 
 fn named(range: &Range<u32>) -> String {
