@@ -226,8 +226,8 @@ pub(super) fn cases() -> Vec<Case> {
         ),
         resumed(
             "part 5 of 0",
-            2,
-            &["it was made with --shard"],
+            4,
+            &["a.checkpoint", "there is no part 5/0"],
             header("/shard", json!({"index": 5, "count": 0})),
         ),
         resumed(
