@@ -10,6 +10,7 @@ target=${CARGO_TARGET_DIR:-target}
 
 RUSTFLAGS="-Z sanitizer=address" \
   cargo +nightly test --locked --target "$host" --target-dir "$target/address" -p etendue-scene --lib -- geometry
-# Miri has the features that a program is compiled for, and no AVX-512.
-MIRIFLAGS=-Zmiri-disable-isolation RUSTFLAGS="-C target-cpu=x86-64-v3" \
+# Miri has the features that a program is compiled for, and no AVX-512. The queues of rayon, which builds the hierarchy, do not fit the older of its
+# two models of aliasing, and its threads never end.
+MIRIFLAGS="-Zmiri-disable-isolation -Zmiri-tree-borrows -Zmiri-ignore-leaks" RUSTFLAGS="-C target-cpu=x86-64-v3" \
   cargo +nightly miri test --locked --target-dir "$target/miri-simd" -p etendue-scene --lib -- geometry::bvh::simd every_backend_finds

@@ -68,10 +68,10 @@ fn brute_force(mesh: &TriangleMesh, ray: &Ray) -> Option<Hit> {
 fn every_backend_finds_the_closest_triangle_of_a_soup() {
     let mut random = Random(1);
     // An interpreter gets few of both.
-    let (triangles, degenerate, rays) = if cfg!(miri) { (50, 1, 60) } else { (700, 14, 4000) };
+    let (triangles, rays, least) = if cfg!(miri) { (200, 100, 2) } else { (700, 4000, 500) };
     let mesh = soup(&mut random, triangles);
     let mut geometry = geometry([Shape::Mesh(mesh.clone())]);
-    assert_eq!(geometry.statistics().degenerate_triangles, degenerate);
+    assert_eq!(geometry.statistics().degenerate_triangles, triangles as usize / 50);
     let mut hits = 0;
     for _ in 0..rays {
         let ray = random_ray(&mut random);
@@ -85,7 +85,7 @@ fn every_backend_finds_the_closest_triangle_of_a_soup() {
             assert_eq!(geometry.occluded(&ray), want.is_some(), "{backend:?} {ray:?}");
         }
     }
-    assert!(8 * hits > rays, "only {hits} hits: the test tests nothing");
+    assert!(hits > least, "only {hits} hits: the test tests nothing");
 }
 
 #[test]
