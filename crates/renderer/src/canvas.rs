@@ -4,7 +4,7 @@ use alloc::sync::Arc;
 
 use etendue_scene::film::Crop;
 
-use crate::codec::{Reader, StateError, Write as _};
+use crate::codec::{Reader, StateError};
 use crate::statistics::Statistics;
 use crate::tile::Tile;
 
@@ -89,8 +89,7 @@ impl<P: CanvasPixel> Canvas<P> {
     pub(crate) fn read(crop: Crop, reader: &mut Reader<'_>) -> Result<Self, StateError> {
         let mut tiles = Vec::new();
         for tile in Tile::cover(&crop) {
-            let part = Crop { offset: tile.offset, size: tile.size };
-            let statistics = Statistics::read(reader, &part)?;
+            let statistics = Statistics::read(reader, &tile.into())?;
             let mut pixels = Vec::new();
             for _ in tile.pixels() {
                 pixels.push(P::read(reader)?);
@@ -105,30 +104,4 @@ impl<P: CanvasPixel> Canvas<P> {
 pub(crate) fn index(crop: &Crop, pixel: [u32; 2]) -> usize {
     let [x, y] = [0, 1].map(|axis| (pixel[axis] - crop.offset[axis]) as usize);
     y * crop.size[0] as usize + x
-}
-
-/// Adds the bytes of a crop.
-pub(crate) fn write_crop(crop: &Crop, bytes: &mut Vec<u8>) {
-    for number in [crop.offset, crop.size].as_flattened() {
-        bytes.u32(*number);
-    }
-}
-
-/// Reads what [`write_crop`] has written.
-///
-/// # Errors
-/// It is no crop, or one with more pixels, of so many bytes each, than there are bytes.
-pub(crate) fn read_crop(reader: &mut Reader<'_>, of_pixel: u64) -> Result<Crop, StateError> {
-    let [mut offset, mut size] = [[0; 2]; 2];
-    for number in [&mut offset, &mut size].into_iter().flatten() {
-        *number = reader.u32()?;
-    }
-    if (0..2).any(|axis| offset[axis].checked_add(size[axis]).is_none()) {
-        return Err(StateError::new("its part of the film cannot be"));
-    }
-    let pixels = u64::from(size[0]) * u64::from(size[1]);
-    if pixels.saturating_mul(of_pixel) > reader.left() as u64 {
-        return Err(StateError::new("it is cut short"));
-    }
-    Ok(Crop { offset, size })
 }

@@ -2,6 +2,8 @@
 
 use core::fmt;
 
+use etendue_scene::film::Crop;
+
 /// Bytes that are no stored render: cut short, or with values that no render has.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct StateError {
@@ -31,11 +33,6 @@ pub(crate) struct Reader<'b> {
 impl<'b> Reader<'b> {
     pub(crate) fn new(bytes: &'b [u8]) -> Self {
         Self { rest: bytes }
-    }
-
-    /// Number of bytes left: what a declared count is checked against before memory is taken for it.
-    pub(crate) fn left(&self) -> usize {
-        self.rest.len()
     }
 
     pub(crate) fn bytes(&mut self, count: usize) -> Result<&'b [u8], StateError> {
@@ -75,6 +72,29 @@ impl<'b> Reader<'b> {
         self.array().map(u64::from_le_bytes)
     }
 
+    /// Reads what [`Write::crop`] has written.
+    ///
+    /// # Errors
+    /// It reaches beyond the largest film.
+    pub(crate) fn crop(&mut self) -> Result<Crop, StateError> {
+        let [mut offset, mut size] = [[0; 2]; 2];
+        for number in [&mut offset, &mut size].into_iter().flatten() {
+            *number = self.u32()?;
+        }
+        if (0..2).any(|axis| offset[axis].checked_add(size[axis]).is_none()) {
+            return Err(StateError::new("its part of the film cannot be"));
+        }
+        Ok(Crop { offset, size })
+    }
+
+    /// That there may be so many pieces of at least so many bytes each.
+    pub(crate) fn has(&self, pieces: u64, bytes_of_each: u64) -> Result<(), StateError> {
+        if pieces.saturating_mul(bytes_of_each) > self.rest.len() as u64 {
+            return Err(StateError::new("it is cut short"));
+        }
+        Ok(())
+    }
+
     /// That nothing is left.
     pub(crate) fn end(&self) -> Result<(), StateError> {
         if self.rest.is_empty() { Ok(()) } else { Err(StateError::new("bytes are left over")) }
@@ -89,6 +109,12 @@ pub(crate) trait Write {
 
     fn f32(&mut self, x: f32) {
         self.u32(x.to_bits());
+    }
+
+    fn crop(&mut self, crop: &Crop) {
+        for &number in [crop.offset, crop.size].as_flattened() {
+            self.u32(number);
+        }
     }
 }
 

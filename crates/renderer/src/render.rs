@@ -297,9 +297,7 @@ impl<'a> Renderer<'a> {
             if counts && squares {
                 moments.add_squares(radiance);
             }
-            if !counts || negative {
-                statistics.record(pixel, u64::from(sample), !counts, negative);
-            }
+            statistics.check(pixel, u64::from(sample), counts, negative);
         }
     }
 

@@ -106,12 +106,12 @@ impl Renderer<'_> {
     /// Random numbers have addresses, so that a path of at most n edges is the beginning of the whole one: each step is one more edge, at most
     /// [`Replay::MOST_STEPS`].
     pub fn replay(&self, pixel: [u32; 2], index: u64) -> Replay {
-        let (radiance, whole) = self.traced(pixel, index, self.settings.path.max_depth);
+        let (radiance, _, whole) = self.traced(pixel, index, self.settings.path.max_depth);
         let longest = self.settings.path.max_depth.unwrap_or(u32::MAX).min(Replay::MOST_STEPS);
         let mut steps = Vec::new();
         let mut before = 0;
         for depth in 1..=longest {
-            let (radiance, rays) = self.traced(pixel, index, Some(depth));
+            let (radiance, _, rays) = self.traced(pixel, index, Some(depth));
             // The last edge was the last for another reason than this limit.
             if rays.len() <= before {
                 break;
@@ -127,11 +127,8 @@ impl Renderer<'_> {
 
     /// Where the path of a sample is cut, if it is.
     pub fn cut(&self, pixel: [u32; 2], index: u64) -> Option<Cut> {
-        let log = RefCell::default();
-        let settings = &self.settings;
-        let sample = OneSample { renderer: self, settings, pixel, index, recorded: Some(&log) };
-        let (_, counts) = self.configured(sample);
-        let surface = log.into_inner().iter().rev().find_map(TracedRay::surface).copied();
+        let (_, counts, rays) = self.traced(pixel, index, self.settings.path.max_depth);
+        let surface = rays.iter().rev().find_map(TracedRay::surface).copied();
         (counts.cut > 0).then(|| Cut { throughput: counts.cut_share(1), surface })
     }
 
@@ -140,19 +137,19 @@ impl Renderer<'_> {
         pixel: [u32; 2],
         index: u64,
         max_depth: Option<u32>,
-    ) -> (Color, Vec<TracedRay>) {
+    ) -> (Color, RayCounts, Vec<TracedRay>) {
         let log = RefCell::default();
         let mut settings = self.settings.clone();
         settings.path.max_depth = max_depth;
         let recorded = Some(&log);
-        let (sample, _) = self.configured(OneSample {
+        let (sample, counts) = self.configured(OneSample {
             renderer: self,
             settings: &settings,
             pixel,
             index,
             recorded,
         });
-        (sample.radiance, log.into_inner())
+        (sample.radiance, counts, log.into_inner())
     }
 }
 

@@ -61,19 +61,20 @@ impl RayCounts {
 const CUT_UNITS: f32 = (1 << 20) as f32;
 
 impl Statistics {
-    /// Counts a sample that is no light.
+    /// Counts a sample if it is no light.
     ///
     /// * `pixel`: column and row on the full film.
-    #[cold]
-    pub(crate) fn record(
+    /// * `counts`: whether it is finite, and so counts.
+    #[inline]
+    pub(crate) fn check(
         &mut self,
         [column, row]: [u32; 2],
         sample: u64,
-        non_finite: bool,
+        counts: bool,
         negative: bool,
     ) {
         let address = SampleAddress { row, column, sample };
-        if non_finite {
+        if !counts {
             self.non_finite.record(address);
         }
         if negative {
@@ -137,8 +138,8 @@ mod tests {
         let rays =
             RayCounts { camera: 7, shadow: 1 << 40, indirect: 3, cut: 2, cut_throughput: u64::MAX };
         let mut statistics = Statistics { samples: 5, rays, ..Statistics::default() };
-        statistics.record([4, 2], 0, true, false);
-        statistics.record([4, 3], 1, true, true);
+        statistics.check([4, 2], 0, false, false);
+        statistics.check([4, 3], 1, false, true);
         let mut bytes = Vec::new();
         statistics.write(&mut bytes);
         let part = Crop { offset: [4, 2], size: [1, 2] };

@@ -12,6 +12,12 @@ pub(crate) struct Tile {
     pub(crate) size: [u32; 2],
 }
 
+impl From<Tile> for Crop {
+    fn from(Tile { offset, size }: Tile) -> Self {
+        Self { offset, size }
+    }
+}
+
 impl Tile {
     /// Number of tiles of a crop.
     pub(crate) fn count(crop: &Crop) -> u64 {

@@ -29,10 +29,10 @@ pub(crate) struct Metadata {
 /// Name of the number of bytes of a part of a render.
 pub(super) const PART: &str = "etendue.part";
 
-/// Most samples of one defect that are named.
-const NAMED: usize = 16;
-
 impl Metadata {
+    /// Most samples of one defect that are named one by one.
+    pub(crate) const NAMED: usize = 16;
+
     /// Name and value of every entry.
     pub(crate) fn entries(&self) -> Vec<(&'static str, String)> {
         let Statistics { samples, rays, non_finite, negative } = &self.statistics;
@@ -55,7 +55,7 @@ impl Metadata {
         for (name, samples) in
             [("etendue.first_non_finite", non_finite), ("etendue.first_negative", negative)]
         {
-            let first = samples.some().into_iter().take(NAMED).map(|address| {
+            let first = samples.some().into_iter().take(Self::NAMED).map(|address| {
                 let SampleAddress { column, row, sample } = address;
                 format!("{column},{row},{sample}")
             });

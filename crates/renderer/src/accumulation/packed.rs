@@ -2,7 +2,6 @@
 
 use etendue_math::ExactSum;
 use etendue_scene::Color;
-use etendue_scene::film::Crop;
 
 use super::column::{Column, Integer};
 use super::pixel::{PixelMoments, mean};
@@ -113,7 +112,7 @@ impl PackedTile {
         if drawn > limit {
             return Err(StateError::new("a tile has more samples than there are"));
         }
-        let statistics = Statistics::read(reader, &Crop { offset: tile.offset, size: tile.size })?;
+        let statistics = Statistics::read(reader, &tile.into())?;
         let left_out = Column::read(reader, pixels)?;
         for pixel in 0..pixels {
             let integer = left_out.get(pixel, pixels);

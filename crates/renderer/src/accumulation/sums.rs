@@ -162,10 +162,9 @@ impl Accumulation {
 
     /// Adds the bytes that [`decode`](Self::decode) reads. They carry no checksum and no version; whoever stores them adds both.
     pub fn encode(&self, bytes: &mut Vec<u8>) {
-        let Crop { offset, size } = self.crop;
-        for number in [offset, size, [self.samples.start, self.samples.end]].as_flattened() {
-            bytes.u32(*number);
-        }
+        bytes.crop(&self.crop);
+        bytes.u32(self.samples.start);
+        bytes.u32(self.samples.end);
         for (tile, packed) in Tile::cover(&self.crop).into_iter().zip(&self.tiles) {
             packed.write(tile, bytes);
         }
@@ -177,22 +176,16 @@ impl Accumulation {
     /// Any other bytes that do not happen to be a render. Memory is in proportion to their number, whatever they declare.
     pub fn decode(bytes: &[u8]) -> Result<Self, StateError> {
         let mut reader = Reader::new(bytes);
-        let [mut offset, mut size, mut range] = [[0; 2]; 3];
-        for number in [&mut offset, &mut size, &mut range].into_iter().flatten() {
-            *number = reader.u32()?;
+        let crop = reader.crop()?;
+        let samples = reader.u32()?..reader.u32()?;
+        if samples.start > samples.end {
+            return Err(StateError::new("its samples cannot be"));
         }
-        let crop = Crop { offset, size };
-        if (0..2).any(|axis| offset[axis].checked_add(size[axis]).is_none()) || range[0] > range[1]
-        {
-            return Err(StateError::new("its part of the film or its samples cannot be"));
-        }
-        let samples = range[0]..range[1];
-        if Tile::count(&crop).saturating_mul(LEAST as u64) > reader.left() as u64 {
-            return Err(StateError::new("it is cut short"));
-        }
+        reader.has(Tile::count(&crop), LEAST as u64)?;
+        let limit = samples.end - samples.start;
         let tiles = Tile::cover(&crop)
             .into_iter()
-            .map(|tile| PackedTile::read(&mut reader, tile, range[1] - range[0]).map(Arc::new));
+            .map(|tile| PackedTile::read(&mut reader, tile, limit).map(Arc::new));
         let tiles = tiles.collect::<Result<Vec<_>, _>>()?;
         reader.end()?;
         let drawn = tiles.iter().map(|tile| u64::from(tile.drawn())).sum();

@@ -277,9 +277,7 @@ impl<S: Sampler> Task for ExtendTile<'_, '_, '_, S> {
                         [path.own, path.lent, path.alone()].map(|light| light.scale(weight));
                     let first = path.first.map_or(own, |first| first.radiance.scale(weight));
                     let counts = member.extension.add(Find { own, lent, alone, first });
-                    if !counts || negative {
-                        statistics.record(member.pixel, u64::from(sample), !counts, negative);
-                    }
+                    statistics.check(member.pixel, u64::from(sample), counts, negative);
                 }
                 statistics.samples += paths.len() as u64;
             }

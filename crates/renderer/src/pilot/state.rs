@@ -3,7 +3,7 @@
 use etendue_scene::film::Crop;
 
 use super::pixel::PilotPixel;
-use crate::canvas::{Canvas, CanvasPixel as _, read_crop, write_crop};
+use crate::canvas::{Canvas, CanvasPixel as _};
 use crate::codec::{Reader, StateError, Write as _};
 use crate::film::Image;
 use crate::render::{Progress, Rendering};
@@ -60,7 +60,7 @@ impl ReuseState {
 
     /// Adds the bytes that [`decode`](Self::decode) reads. They carry no checksum and no version; whoever stores them adds both.
     pub fn encode(&self, bytes: &mut Vec<u8>) {
-        write_crop(&self.crop(), bytes);
+        bytes.crop(&self.crop());
         bytes.u64(self.finished as u64);
         self.canvas.write(bytes);
     }
@@ -71,7 +71,9 @@ impl ReuseState {
     /// Any other bytes that do not happen to be a render. Memory is in proportion to their number, whatever they declare.
     pub fn decode(bytes: &[u8]) -> Result<Self, StateError> {
         let mut reader = Reader::new(bytes);
-        let crop = read_crop(&mut reader, PilotPixel::BYTES)?;
+        let crop = reader.crop()?;
+        let pixels = crop.size.map(u64::from).iter().product();
+        reader.has(pixels, PilotPixel::BYTES)?;
         let finished = usize::try_from(reader.u64()?).unwrap_or(usize::MAX);
         if finished > tiles_of_both_passes(&crop) {
             return Err(StateError::new("more tiles are finished than there are"));

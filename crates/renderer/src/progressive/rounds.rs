@@ -289,9 +289,7 @@ impl<S: Sampler, T: Transport> Task for ExtendTile<'_, '_, '_, S, T> {
                             &mut statistics.rays,
                         );
                         let counts = block.add(path.radiance);
-                        if !counts || path.negative {
-                            statistics.record(pixel, sample, !counts, path.negative);
-                        }
+                        statistics.check(pixel, sample, counts, path.negative);
                         statistics.samples += 1;
                     }
                     halves[half].add(&block);

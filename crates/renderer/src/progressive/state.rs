@@ -11,7 +11,7 @@ use super::halves::{halves, mean, variance};
 use super::image_error::ImageError;
 use super::rounds::ProgressiveRendering;
 use super::schedule::{HIGHEST, Stage};
-use crate::canvas::{Canvas, CanvasPixel as _, read_crop, write_crop};
+use crate::canvas::{Canvas, CanvasPixel as _};
 use crate::codec::{Reader, StateError, Write as _};
 
 /// A progressive render under way: the halves of all pixels, and how far the present round is.
@@ -102,7 +102,7 @@ impl ProgressiveState {
 
     /// Adds the bytes that [`decode`](Self::decode) reads. They carry no checksum and no version; whoever stores them adds both.
     pub fn encode(&self, bytes: &mut Vec<u8>) {
-        write_crop(&self.canvas.crop(), bytes);
+        bytes.crop(&self.canvas.crop());
         bytes.u8(u8::from(self.allocation == Allocation::Uniform));
         bytes.u32(self.begun);
         bytes.u8(u8::from(self.is_finished));
@@ -129,8 +129,9 @@ impl ProgressiveState {
     /// Any other bytes that do not happen to be a render. Memory is in proportion to their number, whatever they declare.
     pub fn decode(bytes: &[u8]) -> Result<Self, StateError> {
         let mut reader = Reader::new(bytes);
-        let crop = read_crop(&mut reader, PIXEL)?;
-        let pixels = crop.size.map(|n| n as usize).iter().product();
+        let crop = reader.crop()?;
+        let pixels: u64 = crop.size.map(u64::from).iter().product();
+        reader.has(pixels, PIXEL)?;
         let allocation = if reader.bool()? { Allocation::Uniform } else { Allocation::Adaptive };
         let begun = reader.u32()?;
         let is_finished = reader.bool()?;
@@ -148,7 +149,7 @@ impl ProgressiveState {
             finished.push(Round { samples_per_pixel, error });
         }
         let mut levels = || -> Result<Vec<u8>, StateError> {
-            let levels = reader.bytes(pixels)?;
+            let levels = reader.bytes(pixels as usize)?;
             if levels.iter().any(|&level| u32::from(level) > HIGHEST) {
                 return Err(StateError::new("a pixel has more samples than there are"));
             }

@@ -3,11 +3,12 @@
 use core::fmt;
 
 use etendue_math::mix_u64;
-use etendue_renderer::{BadSamples, RenderSettings, Renderer, SampleAddress, Statistics};
+use etendue_renderer::{BadSamples, Renderer, SampleAddress, Statistics};
 use etendue_scene::{Origins, Scene};
 use serde_json::{Value, json};
 
-use super::replay::Told;
+use super::replay::{Told, material, settings};
+use crate::output::Metadata;
 
 /// What is wrong with the samples of a render.
 #[derive(Debug)]
@@ -48,10 +49,8 @@ impl<'a> Defects<'a> {
     ) -> Self {
         let much_is_cut = statistics.rays.cut_share(statistics.samples) > LITTLE;
         let bad = statistics.non_finite.count() + statistics.negative.count();
-        // One thread for one sample.
-        let settings = RenderSettings { threads: 1, ..RenderSettings::of_scene(scene) };
-        let renderer =
-            (much_is_cut || bad > 0).then(|| Renderer::new(scene, settings).ok()).flatten();
+        let needed = much_is_cut || bad > 0;
+        let renderer = needed.then(|| Renderer::new(scene, settings(scene)).ok()).flatten();
         let told = |address: &SampleAddress| {
             let renderer = renderer.as_ref().filter(|_| !shared)?;
             let replay = renderer.replay([address.column, address.row], address.sample);
@@ -68,7 +67,7 @@ impl<'a> Defects<'a> {
             let found = addresses(scene).filter_map(|(pixel, sample)| {
                 let cut = renderer.cut(pixel, sample)?;
                 let surface = cut.surface.map(|point| point.shape.0);
-                Some((super::replay::material(scene, origins, surface?), cut.throughput))
+                Some((material(scene, origins, surface?), cut.throughput))
             });
             Shares::new(found)
         });
@@ -91,12 +90,9 @@ fn addresses(scene: &Scene) -> impl Iterator<Item = ([u32; 2], u64)> {
 }
 
 impl Defect<'_> {
-    /// Most samples that are named one by one.
-    const NAMED: usize = 16;
-
     /// The first that are known, and where each comes from.
     pub(super) fn named(&self) -> &[(SampleAddress, Option<String>)] {
-        &self.some[..self.some.len().min(Self::NAMED)]
+        &self.some[..self.some.len().min(Metadata::NAMED)]
     }
 
     /// Where all of them come from; where there are too many, by those that are known.
@@ -118,7 +114,7 @@ impl Defect<'_> {
             eprintln!("etendue:   column {column}, row {row}, sample {sample}{from}");
         }
         let shares = self.shares();
-        if known > Self::NAMED && !shares.is_empty() {
+        if known > Metadata::NAMED && !shares.is_empty() {
             let all = if known as u64 == count { "all of them" } else { "those looked at" };
             eprintln!("etendue:   and more; of {all} {shares}");
         }

@@ -34,9 +34,7 @@ pub(super) fn run(
             "--replay {column},{row},{sample}: the film has {width} columns and {height} rows, both counted from 0"
         )));
     }
-    // One thread for one sample.
-    let settings = RenderSettings { threads: 1, ..RenderSettings::of_scene(scene) };
-    let replay = Renderer::new(scene, settings)?.replay([column, row], sample);
+    let replay = Renderer::new(scene, settings(scene))?.replay([column, row], sample);
     let told = Told { scene, origins, replay };
     if arguments.json {
         println!("{}", told.json(address, scene.sampling.seed));
@@ -45,6 +43,11 @@ pub(super) fn run(
         told.print();
     }
     Ok(Exit::Done)
+}
+
+/// One thread for one sample.
+pub(super) fn settings(scene: &Scene) -> RenderSettings {
+    RenderSettings { threads: 1, ..RenderSettings::of_scene(scene) }
 }
 
 /// What a shape is made of, and where the file says so.
